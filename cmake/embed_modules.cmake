@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: Apache-2.0
+# Writes OUTPUT, a C++ source that holds the text of each of MODULES; `prelude` comes first.
+set(code "// Made from stdlib/*.mms by cmake/embed_modules.cmake.\n#include \"stdlib/stdlib.h\"\n\nnamespace mms::stdlib {\nnamespace {\n\nconstexpr Module kModules[] = {\n")
+set(first "")
+set(rest "")
+foreach(file ${MODULES})
+  get_filename_component(name ${file} NAME_WE)
+  file(READ ${file} text)
+  set(row "    {\"${name}\", R\"mms(${text})mms\"},\n")
+  if(name STREQUAL "prelude")
+    string(APPEND first "${row}")
+  else()
+    string(APPEND rest "${row}")
+  endif()
+endforeach()
+string(APPEND code "${first}${rest}};\n\n}  // namespace\n\nstd::span<const Module> modules() { return kModules; }\n\n}  // namespace mms::stdlib\n")
+file(WRITE ${OUTPUT} "${code}")
