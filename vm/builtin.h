@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// The row type of the library: one row says everything about a function that is written in C++.
+///
+/// A kernel is written once, over a value type: `template <class R> struct Hypot { static R
+/// eval(R x, R y); }`. `builtin<Hypot>(...)` makes the float and the double kernel of it.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+namespace mms::vm {
+
+/// Runs over `lanes` lanes (a multiple of kLaneMultiple, padding included). `in[k]` and `out[k]`
+/// are blocks of lanes, one for each real, integer or logic scalar of the flattened arguments and
+/// results. Blocks of `out` alias nothing. Real cells have the kernel's value type; integer and
+/// logic cells are std::int32_t in either machine.
+using Kernel = void (*)(const void* const* in, void* const* out, int lanes);
+
+/// Batches are padded to this many lanes, so kernels need no remainder loop.
+inline constexpr int kLaneMultiple = 16;
+
+struct Builtin {
+  /// In the language's own syntax: `real perlin(real[3] p)`. Parsed by the language's own parser.
+  std::string_view signature{};
+  /// `noise`, `math`, ...: what `import "noise" as n` makes reachable as `n::perlin`.
+  std::string_view module{};
+  /// One sentence, and the edge cases. This is the manual.
+  std::string_view doc{};
+  /// One expression that uses it; the tests run it.
+  std::string_view example{};
+  /// Derivative rule: for each formal, separated by `;`, the partial derivative of the result as
+  /// an expression in the language over the formals (an array for an array formal). Empty where
+  /// there is none (integer results, materials).
+  std::string_view derivative{};
+  /// Largest error of the float kernel against the exact result of its float arguments, in ulp of
+  /// the result (or of 1 where |result| < 1 and `absolute`); 0 means exactly rounded or exact.
+  double max_ulp = 0;
+  /// Cost in units of one real addition over a batch.
+  int cost = 10;
+  Kernel f32 = nullptr, f64 = nullptr;
+  /// For results of type `material`: which scattering model or combiner (materials/table.h). Such
+  /// a row has no kernel: the linker compiles it away to a layout.
+  int lobe = -1;
+};
+
+namespace detail {
+
+template <class T>
+struct Result {
+  static constexpr int count = 1;
+  static void store(const T& r, void* const* out, int i) { static_cast<T*>(out[0])[i] = r; }
+};
+template <class T, std::size_t N>
+struct Result<std::array<T, N>> {
+  static constexpr int count = N;
+  static void store(const std::array<T, N>& r, void* const* out, int i) {
+    for (std::size_t k = 0; k < N; ++k) static_cast<T*>(out[k])[i] = r[k];
+  }
+};
+
+template <auto Eval>
+struct Lift;
+template <class Res, class... Args, Res (*Eval)(Args...)>
+struct Lift<Eval> {
+  template <std::size_t... K>
+  static void loop(const void* const* in, void* const* out, int lanes, std::index_sequence<K...>) {
+    const void* const args[] = {in[K]..., nullptr};
+#pragma GCC ivdep
+    for (int i = 0; i < lanes; ++i)
+      Result<Res>::store(Eval(static_cast<const Args*>(args[K])[i]...), out, i);
+  }
+  static void run(const void* const* in, void* const* out, int lanes) {
+    loop(in, out, lanes, std::index_sequence_for<Args...>{});
+  }
+};
+
+}  // namespace detail
+
+/// The kernel of `Eval`, a function over scalars (R or std::int32_t) that returns a scalar or a
+/// std::array of them.
+template <auto Eval>
+inline constexpr Kernel kernel_of = &detail::Lift<Eval>::run;
+
+/// Both kernels of the functor template `F` in a row.
+template <template <class> class F>
+constexpr Builtin builtin(Builtin row) {
+  row.f32 = kernel_of<&F<float>::eval>;
+  row.f64 = kernel_of<&F<double>::eval>;
+  return row;
+}
+
+}  // namespace mms::vm

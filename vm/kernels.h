@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// No include guard: each instruction set includes this once, inside its own namespace, so that no
+// function of one is ever linked into the other. It may therefore use no inline function of the
+// standard library.
+
+/// \file
+/// One kernel for each operation, over a value type R (float or double).
+///
+/// Loops run over lanes, a multiple of kLaneMultiple; results may stand exactly where operands of
+/// the same size stood.
+
+using std::int32_t;
+using std::uint32_t;
+
+/// Lanes as a loop bound that needs no remainder.
+#define MMS_LANES(n) \
+  if ((n) <= 0 || (n) % kLaneMultiple != 0) __builtin_unreachable()
+
+template <class F, class D, class A>
+inline void map1(D* d, const A* a, int n) {
+  MMS_LANES(n);
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) d[i] = F::eval(a[i]);
+}
+template <class F, class D, class A>
+inline void map2(D* d, const A* a, const A* b, int n) {
+  MMS_LANES(n);
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) d[i] = F::eval(a[i], b[i]);
+}
+template <class F, class D, class A, class B>
+inline void map3(D* d, const A* a, const B* b, const B* c, int n) {
+  MMS_LANES(n);
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) d[i] = F::eval(a[i], b[i], c[i]);
+}
+
+inline float floor_of(float x) { return __builtin_floorf(x); }
+inline double floor_of(double x) { return __builtin_floor(x); }
+inline float fma_of(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
+inline double fma_of(double a, double b, double c) { return __builtin_fma(a, b, c); }
+
+struct Add {
+  template <class R>
+  static R eval(R a, R b) {
+    return a + b;
+  }
+};
+struct Sub {
+  template <class R>
+  static R eval(R a, R b) {
+    return a - b;
+  }
+};
+struct Mul {
+  template <class R>
+  static R eval(R a, R b) {
+    return a * b;
+  }
+};
+struct Div {
+  template <class R>
+  static R eval(R a, R b) {
+    return a / b;
+  }
+};
+/// The quotient is rounded before it is floored; the remainder of that quotient is rounded once.
+struct Mod {
+  template <class R>
+  static R eval(R a, R b) {
+    return fma_of(-b, floor_of(a / b), a);
+  }
+};
+struct Neg {
+  template <class R>
+  static R eval(R a) {
+    return -a;
+  }
+};
+struct Fma {
+  template <class R>
+  static R eval(R a, R b, R c) {
+    return fma_of(a, b, c);
+  }
+};
+
+struct AddWrap {
+  static int32_t eval(int32_t a, int32_t b) { return int32_t(uint32_t(a) + uint32_t(b)); }
+};
+struct SubWrap {
+  static int32_t eval(int32_t a, int32_t b) { return int32_t(uint32_t(a) - uint32_t(b)); }
+};
+struct MulWrap {
+  static int32_t eval(int32_t a, int32_t b) { return int32_t(uint32_t(a) * uint32_t(b)); }
+};
+struct NegWrap {
+  static int32_t eval(int32_t a) { return int32_t(0u - uint32_t(a)); }
+};
+struct ModFloored {
+  static int32_t eval(int32_t a, int32_t b) {
+    const int32_t divisor = b == 0 || b == -1 ? 1 : b;  // 0 and INT_MIN % -1 trap otherwise
+    const int32_t r = a % divisor;
+    return r != 0 && (r ^ divisor) < 0 ? r + divisor : r;
+  }
+};
+
+struct Truncate {
+  /// The largest value below 2^31 and the clamp below it.
+  static constexpr float kTopF = 2147483520.0f;
+  static constexpr double kTopD = 2147483647.0;
+  static int32_t eval(float x) { return clamped(x, kTopF); }
+  static int32_t eval(double x) { return clamped(x, kTopD); }
+  template <class R>
+  static int32_t clamped(R x, R top) {
+    const R low = x > R(-2147483648.0) ? x : R(-2147483648.0);  // and NaN
+    const int32_t i = int32_t(low < top ? low : top);
+    return x != x ? 0 : x >= R(2147483648.0) ? 2147483647 : i;
+  }
+};
+template <class R>
+struct ToReal {
+  static R eval(int32_t a) { return R(a); }
+};
+
+struct Lt {
+  template <class A>
+  static int32_t eval(A a, A b) {
+    return a < b;
+  }
+};
+struct Le {
+  template <class A>
+  static int32_t eval(A a, A b) {
+    return a <= b;
+  }
+};
+struct Eq {
+  template <class A>
+  static int32_t eval(A a, A b) {
+    return a == b;
+  }
+};
+struct Ne {
+  template <class A>
+  static int32_t eval(A a, A b) {
+    return a != b;
+  }
+};
+struct And {
+  static int32_t eval(int32_t a, int32_t b) { return a & b; }
+};
+struct Or {
+  static int32_t eval(int32_t a, int32_t b) { return a | b; }
+};
+struct Not {
+  static int32_t eval(int32_t a) { return a ^ 1; }
+};
+struct Select {
+  template <class B>
+  static B eval(int32_t a, B b, B c) {
+    return a ? b : c;
+  }
+};
+
+/// then = outer & cond, other = outer & not cond; whether any lane is in `then`.
+inline bool split(int32_t* then, int32_t* other, const int32_t* outer, const int32_t* cond, int n) {
+  MMS_LANES(n);
+  int32_t any = 0;
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const int32_t t = outer[i] & cond[i];
+    other[i] = outer[i] ^ t;
+    then[i] = t;
+    any |= t;
+  }
+  return any != 0;
+}
+
+inline bool any_of(const int32_t* mask, int n) {
+  MMS_LANES(n);
+  int32_t any = 0;
+  for (int i = 0; i < n; ++i) any |= mask[i];
+  return any != 0;
+}
+
+/// Counts the lanes of `mask` up; whether any lane is now above `limit`.
+inline bool count(int32_t* counter, const int32_t* mask, int32_t limit, int n) {
+  MMS_LANES(n);
+  int32_t over = 0;
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    counter[i] += mask[i];
+    over |= counter[i] > limit;
+  }
+  return over != 0;
+}
+
+#undef MMS_LANES
