@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// Expressions of the elaborator.
+
+#include <algorithm>
+
+#include "lang/elaborator.h"
+#include "vm/limits.h"
+
+namespace mms::lang {
+namespace {
+
+using vm::Op;
+using vm::SlotType;
+
+constexpr TypeId kLogic = TypeTable::kLogic, kInt = TypeTable::kInteger, kReal = TypeTable::kReal,
+                 kComplex = TypeTable::kComplex, kSpec = TypeTable::kSpectrum;
+
+}  // namespace
+
+Value Elaborator::expr(Context c, ExprHandle h) {
+  const Expr& e = (*c.graph)[h];
+  if (full_) return {};
+  const vm::SourceLine outer = line_;
+  line_ = line_of(e.span);
+  Value v;
+  switch (e.form) {
+    case Expr::Form::Integer: v = scalar(kInt, integer(e.integer)); break;
+    case Expr::Form::Real: v = scalar(kReal, real(e.real)); break;
+    case Expr::Form::Imaginary: v = {kComplex, {real(0), real(e.real)}, {}, {}, {}, {}}; break;
+    case Expr::Form::Logic: v = scalar(kLogic, logic(e.integer != 0)); break;
+    case Expr::Form::String:
+      v.type = TypeTable::kString;
+      v.text = e.text;
+      break;
+    case Expr::Form::Name: v = expr_name(c, e); break;
+    case Expr::Form::Variable: v = expr_variable(c, e); break;
+    case Expr::Form::FunctionValue:
+    case Expr::Form::Lambda: {
+      auto f = std::make_shared<FunctionValue>();
+      *f = {c.graph, h, c.scope, e.path, std::nullopt, e.span};
+      if (e.form == Expr::Form::FunctionValue && e.path.empty()) f->op = e.op;
+      if (!e.path.empty()) {
+        const Binding* b = find(c, e.path);
+        if (!b) {
+          unknown_name(c, e.path, Diag::UnknownFunction);
+          break;
+        }
+        if (b->form == Binding::Form::Value && types_.is_function(b->value.type)) {
+          v = b->value;
+          break;
+        }
+        if (b->form != Binding::Form::Functions) {
+          diagnostics_.add(Diag::NotCallable, e.span, e.path.back().text);
+          break;
+        }
+      }
+      v.type = TypeTable::kClosure;
+      v.function = std::move(f);
+      break;
+    }
+    case Expr::Form::Unary: {
+      const Value x = expr(c, e.args[0]);
+      if (e.op == Operator::Neg) {
+        v = negate(x, e.span);
+      } else if (!x.poison() && x.type != kLogic) {
+        diagnostics_.add(Diag::BadOperand, e.span, "not", spell(x));
+      } else if (!x.poison()) {
+        v = scalar(kLogic, node(Op::Not, {x.refs[0]}));
+      }
+      break;
+    }
+    case Expr::Form::Binary: v = expr_binary(c, e); break;
+    case Expr::Form::Chain: v = expr_chain(c, e); break;
+    case Expr::Form::Call: v = expr_call(c, e); break;
+    case Expr::Form::Convert: v = expr_convert(c, e); break;
+    case Expr::Form::Index: v = expr_index(c, e); break;
+    case Expr::Form::Field: v = expr_field(c, e); break;
+    case Expr::Form::Select: v = expr_select(c, e, 0); break;
+    case Expr::Form::Array: v = expr_array(c, e); break;
+    case Expr::Form::Error: break;
+  }
+  line_ = outer;
+  return v;
+}
+
+Value Elaborator::evaluate_constant(Binding& b) {
+  auto cached = b.cache.find(function_);
+  if (cached != b.cache.end()) return cached->second;
+  if (b.busy) {
+    diagnostics_.add(Diag::DefinedByItself, b.span);
+    return {};
+  }
+  b.busy = true;
+  Value v = expr({b.graph, b.scope}, b.expr);
+  if (b.stated) {
+    const TypeId type = resolve_type({b.graph, b.scope}, b.stated, nullptr);
+    v = convert(v, type, (*b.graph)[b.expr].span, (*b.graph)[b.stated].span);
+  }
+  if (b.type != TypeTable::kPoison) v = convert(v, b.type, (*b.graph)[b.expr].span);
+  b.busy = false;
+  return b.cache[function_] = v;
+}
+
+Value Elaborator::expr_name(Context c, const Expr& e) {
+  // An enumerator: `finish::oiled`.
+  if (e.path.size() >= 2) {
+    Path owner(e.path.begin(), e.path.end() - 1);
+    Binding* t = find(c, owner);
+    if (t && t->form == Binding::Form::Type && types_[t->type].form == Type::Form::Enum) {
+      const std::vector<std::string>& members = types_[t->type].members;
+      const auto it = std::find(members.begin(), members.end(), e.path.back().text);
+      if (it == members.end()) {
+        Diagnostic& d = diagnostics_.add(Diag::NoField, e.path.back().span, types_[t->type].name, e.path.back().text);
+        const std::string near = nearest(e.path.back().text, members);
+        if (!near.empty()) d.help(fmt::format("did you mean `{}`?", near));
+        return {};
+      }
+      return scalar(t->type, integer(it - members.begin()));
+    }
+  }
+  Binding* b = find(c, e.path);
+  if (!b) {
+    unknown_name(c, e.path, Diag::UnknownName);
+    return {};
+  }
+  switch (b->form) {
+    case Binding::Form::Value: return b->value;
+    case Binding::Form::Constant: return evaluate_constant(*b);
+    case Binding::Form::Functions: {
+      const bool has_plain = std::any_of(b->functions.begin(), b->functions.end(), [](FunctionDecl* d) {
+        return d->function().formals.empty();
+      });
+      if (has_plain) return call_named(c, e.path, {}, e.span);
+      diagnostics_.add(Diag::FunctionNotValue, e.span, e.path.back().text)
+          .help(fmt::format("call it, `{0}(...)`, or write `#{0}` for the function itself", e.path.back().text));
+      return {};
+    }
+    case Binding::Form::Type:
+    case Binding::Form::Namespace:
+      diagnostics_.add(Diag::NotAValue, e.span, e.path.back().text);
+      return {};
+  }
+  return {};
+}
+
+Value Elaborator::expr_variable(Context c, const Expr& e) {
+  const std::string& name = e.path[0].text;
+  for (const vm::VariableInfo& v : vm::kVariables) {
+    if (v.name != name || (v.visibility == vm::Visibility::Hidden && !c.scope->library)) continue;
+    const int first = vm::input_index(v.variable);
+    if (v.slot_type() == SlotType::Spectrum) return scalar(kSpec, input(first));
+    if (v.components() == 1) return scalar(kReal, input(first));
+    auto row = [&](int begin, int size) {
+      Value r;
+      for (int i = 0; i < size; ++i) r.parts.push_back(scalar(kReal, input(first + begin + i)));
+      r.type = types_.array(kReal, size);
+      return r;
+    };
+    if (v.components() != 4) return row(0, v.components());
+    Value m;
+    m.parts = {row(0, 2), row(2, 2)};
+    m.type = types_.array(types_.array(kReal, 2), 2);
+    return m;
+  }
+  std::vector<std::string> names;
+  for (const vm::VariableInfo& v : vm::kVariables)
+    if (v.visibility == vm::Visibility::Public) names.emplace_back(v.name);
+  Diagnostic& d = diagnostics_.add(Diag::UnknownVariable, e.span, name);
+  const std::string near = nearest(name, names);
+  if (!near.empty()) {
+    d.help(fmt::format("did you mean `${}`?", near));
+  } else {
+    std::string all;
+    for (const std::string& n : names) all += (all.empty() ? "$" : ", $") + n;
+    d.help("there are " + all);
+  }
+  return {};
+}
+
+/// A sum with a product as an operand is one fused operation: the left product where both are.
+Value Elaborator::expr_binary(Context c, const Expr& e) {
+  if (e.op == Operator::And || e.op == Operator::Or) return expr_lazy(c, e);
+  if (e.op == Operator::Add || e.op == Operator::Sub) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Expr& product = (*c.graph)[e.args[side]];
+      if (product.form != Expr::Form::Binary || product.op != Operator::Mul) continue;
+      Value x, y, z;
+      if (side == 1) z = expr(c, e.args[0]);
+      x = expr(c, product.args[0]);
+      y = expr(c, product.args[1]);
+      if (side == 0) z = expr(c, e.args[1]);
+      if (x.poison() || y.poison() || z.poison()) return {};
+      if (can_fuse(x, y, z)) {
+        if (e.op == Operator::Sub && side == 0) z = negate(z, e.span);
+        if (e.op == Operator::Sub && side == 1) x = negate(x, e.span);
+        return fused(x, y, z, e.span);
+      }
+      const Value p = binary(Operator::Mul, x, y, product.span);
+      return side == 0 ? binary(e.op, p, z, e.span) : binary(e.op, z, p, e.span);
+    }
+  }
+  const Value a = expr(c, e.args[0]);
+  const Value b = expr(c, e.args[1]);
+  return binary(e.op, a, b, e.span);
+}
+
+/// `and` and `or` do not look at their right side where the left one decides; that shows only
+/// where the right side may not end, so only then it is a choice.
+Value Elaborator::expr_lazy(Context c, const Expr& e) {
+  const bool is_and = e.op == Operator::And;
+  const Value a = expr(c, e.args[0]);
+  const std::optional<bool> decided = a.type == kLogic ? known_logic(a) : std::nullopt;
+  if (decided && *decided != is_and) return a;
+  const std::size_t before = module.functions[function_].nodes.size();
+  dynamic_ += decided ? 0 : 1;
+  const Value b = expr(c, e.args[1]);
+  dynamic_ -= decided ? 0 : 1;
+  if (a.poison() || b.poison()) return {};
+  if (a.type != kLogic || b.type != kLogic) return bad_operands(e.op, a, b, e.span);
+  if (decided) return b;
+  const std::vector<Node>& nodes = module.functions[function_].nodes;
+  const bool calls = std::any_of(nodes.begin() + static_cast<std::ptrdiff_t>(before), nodes.end(),
+                                 [](const Node& n) { return n.op == Op::Call; });
+  if (!calls) return logical(e.op, a, b);
+  const Value other = scalar(kLogic, logic(!is_and));
+  return is_and ? choose(a.refs[0], b, other, e.span) : choose(a.refs[0], other, b, e.span);
+}
+
+Value Elaborator::expr_chain(Context c, const Expr& e) {
+  Value all;
+  Value left = expr(c, e.args[0]);
+  for (std::size_t i = 0; i < e.ops.size(); ++i) {
+    Value right = expr(c, e.args[i + 1]);
+    const Value one = compare(e.ops[i], left, right, e.span);
+    all = i == 0 ? one : logical(Operator::And, all, one);
+    left = std::move(right);
+  }
+  return all;
+}
+
+Value Elaborator::expr_select(Context c, const Expr& e, std::size_t arm) {
+  if (2 * arm + 1 >= e.args.size()) return expr(c, e.args[2 * arm]);
+  const ExprHandle value = e.args[2 * arm], condition = e.args[2 * arm + 1];
+  const Value cond = expr(c, condition);
+  if (!cond.poison() && cond.type != kLogic) {
+    diagnostics_.add(Diag::TypeMismatch, (*c.graph)[condition].span, "logic", spell(cond))
+        .labelled("a condition is `logic`");
+    return {};
+  }
+  if (const auto decided = cond.poison() ? std::nullopt : known_logic(cond))
+    return *decided ? expr(c, value) : expr_select(c, e, arm + 1);
+  ++dynamic_;
+  Value a = expr(c, value);
+  Value b = expr_select(c, e, arm + 1);
+  --dynamic_;
+  if (cond.poison() || a.poison() || b.poison()) return {};
+  const TypeId type = types_.join(a.type, b.type);
+  if (type == TypeTable::kPoison) {
+    diagnostics_.add(Diag::ArmsDiffer, e.span, spell(a), spell(b))
+        .note((*c.graph)[value].span, fmt::format("this is `{}`", spell(a)));
+    return {};
+  }
+  line_ = line_of(e.span);
+  return choose(cond.refs[0], widen(a, type), widen(b, type), e.span);
+}
+
+/// An array of `parts`, widened to the type they share.
+Value Elaborator::array_of(std::vector<Value> parts, const std::vector<Span>& spans) {
+  TypeId type = parts[0].type;
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const TypeId joined = types_.join(type, parts[i].type);
+    if (joined == TypeTable::kPoison) {
+      if (type != TypeTable::kPoison && !parts[i].poison())
+        diagnostics_.add(Diag::TypeMismatch, i < spans.size() ? spans[i] : Span{}, types_.spell(type), spell(parts[i]))
+            .help("the elements of an array have one type");
+      return {};
+    }
+    type = joined;
+  }
+  if (type == TypeTable::kPoison) return {};
+  Value v;
+  v.type = types_.array(type, static_cast<int>(parts.size()));
+  for (const Value& p : parts) v.parts.push_back(widen(p, type));
+  return v;
+}
+
+Value Elaborator::expr_array(Context c, const Expr& e) {
+  const std::size_t columns = e.args.size() / std::max<std::size_t>(e.rows, 1);
+  if (columns * e.rows != e.args.size()) {
+    diagnostics_.add(Diag::RaggedArray, e.span);
+    return {};
+  }
+  std::vector<Value> rows;
+  std::vector<Span> row_spans;
+  for (std::size_t r = 0; r < e.rows; ++r) {
+    std::vector<Value> parts;
+    std::vector<Span> spans;
+    for (std::size_t k = 0; k < columns; ++k) {
+      parts.push_back(expr(c, e.args[r * columns + k]));
+      spans.push_back((*c.graph)[e.args[r * columns + k]].span);
+    }
+    rows.push_back(array_of(std::move(parts), spans));
+    row_spans.push_back(e.span);
+  }
+  Value v = e.rows == 1 ? std::move(rows[0]) : array_of(std::move(rows), row_spans);
+  if (types_.rank(v.type) > 2) {
+    diagnostics_.add(Diag::ArrayRank, e.span);
+    return {};
+  }
+  return v;
+}
+
+Value Elaborator::index(const Value& array, const Value& i, Span span) {
+  if (array.poison() || i.poison()) return {};
+  if (!types_.is_array(array.type)) {
+    diagnostics_.add(Diag::NotIndexable, span, spell(array));
+    return {};
+  }
+  if (i.type != kInt) {
+    convert(i, kInt, span);
+    return {};
+  }
+  const std::int64_t size = static_cast<std::int64_t>(array.parts.size());
+  if (const auto k = known_integer(i)) {
+    if (*k >= 0 && *k < size) return array.parts[static_cast<std::size_t>(*k)];
+    diagnostics_.add(Diag::IndexRange, span, *k, size - 1).help("the first element has index 0");
+    return {};
+  }
+  // Known only at run time: a choice; outside the array the nearest end is taken.
+  Value v = array.parts.back();
+  for (std::int64_t k = size - 2; k >= 0; --k)
+    v = choose(node(Op::LeI, {i.refs[0], integer(k)}), array.parts[static_cast<std::size_t>(k)], v, span);
+  return v;
+}
+
+Value Elaborator::expr_index(Context c, const Expr& e) {
+  Value v = expr(c, e.args[0]);
+  for (std::size_t k = 1; k < e.args.size(); ++k) v = index(v, expr(c, e.args[k]), e.span);
+  return v;
+}
+
+Value Elaborator::expr_field(Context c, const Expr& e) {
+  const Value v = expr(c, e.args[0]);
+  if (v.poison()) return {};
+  const std::string& name = e.path[0].text;
+  if (types_.is_array(v.type)) {
+    static constexpr std::string_view kAxes = "xyzw";
+    const std::size_t k = name.size() == 1 ? kAxes.find(name[0]) : std::string_view::npos;
+    if (k < v.parts.size()) return v.parts[k];
+  } else if (types_.is_struct(v.type)) {
+    const std::vector<std::string>& members = types_[v.type].members;
+    const auto it = std::find(members.begin(), members.end(), name);
+    if (it != members.end()) return v.parts[static_cast<std::size_t>(it - members.begin())];
+    Diagnostic& d = diagnostics_.add(Diag::NoField, e.path[0].span, spell(v), name);
+    const std::string near = nearest(name, members);
+    if (!near.empty()) d.help(fmt::format("did you mean `{}`?", near));
+    return {};
+  }
+  Diagnostic& d = diagnostics_.add(Diag::NoField, e.path[0].span, spell(v), name);
+  if (v.type == kComplex) d.help("write `re(z)` and `im(z)`");
+  return {};
+}
+
+Value Elaborator::expr_convert(Context c, const Expr& e) {
+  std::vector<BoundArgument> args = arguments(c, e);
+  const TypeId to = types_.basic(e.basic);
+  for (const BoundArgument& a : args)
+    if (a.value.poison()) return {};
+  if (to == kComplex && args.size() == 2) {
+    const Value re = convert(args[0].value, kReal, args[0].span), im = convert(args[1].value, kReal, args[1].span);
+    if (re.poison() || im.poison()) return {};
+    return {kComplex, {re.refs[0], im.refs[0]}, {}, {}, {}, {}};
+  }
+  if (args.size() != 1 || args[0].name) {
+    diagnostics_.add(Diag::ConversionArguments, e.span, types_.spell(to));
+    return {};
+  }
+  const Value& v = args[0].value;
+  if (types_.widening(v.type, to) >= 0) return widen(v, to);
+  const bool enumerated = types_[v.type].form == Type::Form::Enum;
+  if (to == kInt && enumerated) return scalar(kInt, v.refs[0]);
+  if (to == kReal && enumerated) return scalar(kReal, node(Op::RealOfInt, {v.refs[0]}));
+  if (to == kInt && v.type == kReal) return scalar(kInt, node(Op::IntOfReal, {v.refs[0]}));
+  if (v.type == kLogic && (to == kInt || to == kReal)) {
+    const Value one = scalar(to, to == kInt ? integer(1) : real(1)), none = scalar(to, to == kInt ? integer(0) : real(0));
+    return scalar(to, node(to == kInt ? Op::SelectI : Op::SelectR, {v.refs[0], one.refs[0], none.refs[0]}));
+  }
+  diagnostics_.add(Diag::NoConversion, e.span, spell(v), types_.spell(to));
+  return {};
+}
+
+}  // namespace mms::lang

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Graphs to IR by partial evaluation: one walk over the syntax resolves names, checks types,
+/// chooses overloads, instantiates generics, and runs whatever is known at link time. Functions
+/// are inlined; only those that call themselves under a condition known at run time become
+/// functions of the machine. Closures, aggregates, strings and materials do not survive it.
+///
+/// The class is one; its members are implemented by theme: elaborate_names.cpp (scopes, types),
+/// elaborate_values.cpp (nodes, conversions, operators), elaborate_expr.cpp (expressions),
+/// elaborate_call.cpp (overloads, inlining, recursion), elaborate_top.cpp (items, descriptors).
+
+#include <deque>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lang/link.h"
+#include "lang/value.h"
+
+namespace mms::lang {
+
+/// Where an expression is read: its source and the names it sees.
+struct Context {
+  const Graph* graph = nullptr;
+  Scope* scope = nullptr;
+};
+
+/// An evaluated argument of a call.
+struct BoundArgument {
+  std::optional<Name> name;
+  Value value;
+  Span span;
+};
+
+/// A descriptor with its outputs as values of one IR function.
+struct ElaboratedDescriptor {
+  const Descriptor* syntax = nullptr;
+  const Graph* graph = nullptr;
+  std::uint16_t function = 0;
+  Value outputs[static_cast<std::size_t>(vm::Output::Count)];
+  bool stated[static_cast<std::size_t>(vm::Output::Count)] = {};
+};
+
+/// A function without formals, or a constant, seen from outside.
+struct ElaboratedExport {
+  std::string name;
+  std::string type;
+  std::uint16_t function = 0;
+};
+
+class Elaborator {
+ public:
+  Elaborator(const Library& library, const LinkOptions& options, Diagnostics& diagnostics);
+  ~Elaborator();
+
+  /// Elaborates everything the graphs define. What was understood is in the members below.
+  void run(std::span<const Graph> graphs);
+
+  Module module;
+  std::vector<ElaboratedDescriptor> descriptors;
+  std::vector<ElaboratedExport> exports;
+  std::vector<ParamInfo> params;
+  std::vector<std::string> dependencies;
+  std::vector<std::string> sources;
+
+ private:
+  struct Generics {
+    std::map<std::string, TypeId> types;
+    std::map<std::string, int> dims;
+  };
+  struct Match {
+    int cost = -1;  ///< -1: does not fit
+    std::vector<int> argument;  ///< for each formal the argument's index, or -1: the default
+    Generics generics;
+    std::string why;  ///< where it does not fit
+  };
+  struct Candidate {
+    FunctionDecl* decl = nullptr;
+    const vm::Builtin* row = nullptr;
+  };
+  struct Signature;
+  struct CallSite {
+    std::uint16_t function;
+    std::uint32_t node;
+  };
+  struct Instance {
+    std::uint16_t function = 0;
+    std::vector<Ref> captures;
+    std::vector<CallSite> sites;
+    std::size_t own_params = 0;
+    TypeId result = TypeTable::kPoison;
+  };
+  struct Frame {
+    FunctionDecl* decl;
+    int dynamic;        ///< `dynamic_` when the frame was entered
+    bool instance;      ///< its body is being compiled as a function of the machine
+    std::size_t inlined = 0;  ///< `inlined_` when the frame was entered
+  };
+  struct Recursion {  ///< thrown to turn the frame at `depth` into a function of the machine
+    std::size_t depth;
+  };
+
+  // --- names and types (elaborate_names.cpp) ---
+  Scope* new_scope(Scope* parent, bool library = false);
+  Binding* declare(Scope* scope, const Name& name, Binding binding);
+  void declare_function(Context c, FunctionHandle h);
+  void declare_type(Context c, const TypeDefinition& t);
+  void declare_constant(Context c, const Constant& k);
+  Binding* find(Scope* scope, std::string_view name);
+  Binding* find(Context c, const Path& path);
+  std::vector<std::string> visible_names(Scope* scope);
+  void unknown_name(Context c, const Path& path, Diag id);
+  TypeId resolve_type(Context c, TypeHandle h, const Generics* generics);
+  int resolve_dim(Context c, const TypeExpr::Dim& d, const Generics* generics);
+  bool unify(Context c, TypeHandle pattern, TypeId actual, Generics& g, int& cost);
+  bool unify_dim(Context c, const TypeExpr::Dim& d, int size, Generics& g);
+
+  // --- nodes and values (elaborate_values.cpp) ---
+  Ref node(vm::Op op, std::vector<Ref> args, std::uint32_t a = 0, std::uint32_t b = 0,
+           std::vector<vm::SlotType> results = {});
+  Ref constant(vm::Constant c);
+  Ref real(double v);
+  Ref integer(std::int64_t v);
+  Ref logic(bool v);
+  Ref zero(vm::SlotType t);
+  Ref input(int index);
+  Ref localise(Ref r);
+  const vm::Constant* known(Ref r) const;
+  std::optional<std::int64_t> known_integer(const Value& v) const;
+  std::optional<bool> known_logic(const Value& v) const;
+  vm::SlotType slot_type(Ref r) const { return module.functions[r.function].type(r); }
+  Value scalar(TypeId type, Ref r) const { return {type, {r}, {}, {}, {}, {}}; }
+  Value unflatten(TypeId type, const std::vector<Ref>& refs, std::size_t& next);
+  void flatten(const Value& v, std::vector<Ref>& refs) const;
+  void slot_types(TypeId type, std::vector<vm::SlotType>& types) const;
+  Value convert(const Value& v, TypeId to, Span span, Span why = {});
+  Value widen(const Value& v, TypeId to);
+  Value choose(Ref condition, const Value& a, const Value& b, Span span);
+  Value choose_refs(Ref condition, const Value& a, const Value& b);
+  MaterialPtr choose_material(Ref condition, const MaterialPtr& a, const MaterialPtr& b);
+  Value binary(Operator op, const Value& a, const Value& b, Span span);
+  Value arithmetic(Operator op, const Value& a, const Value& b, Span span);
+  Value complex_arithmetic(Operator op, const Value& a, const Value& b, Span span);
+  Value power(const Value& a, const Value& b, Span span);
+  Value repeated_square(const Value& a, std::int64_t n, Span span);
+  Value compare(Operator op, const Value& a, const Value& b, Span span);
+  Value equal(const Value& a, const Value& b);
+  Value logical(Operator op, const Value& a, const Value& b);
+  Value negate(const Value& a, Span span);
+  Value fused(const Value& a, const Value& b, const Value& c, Span span);
+  bool can_fuse(const Value& a, const Value& b, const Value& c) const;
+  Value bad_operands(Operator op, const Value& a, const Value& b, Span span);
+  std::string spell(const Value& v) const { return types_.spell(v.type); }
+
+  // --- expressions (elaborate_expr.cpp) ---
+  Value expr(Context c, ExprHandle h);
+  Value expr_name(Context c, const Expr& e);
+  Value expr_variable(Context c, const Expr& e);
+  Value expr_binary(Context c, const Expr& e);
+  Value expr_lazy(Context c, const Expr& e);
+  Value expr_chain(Context c, const Expr& e);
+  Value expr_index(Context c, const Expr& e);
+  Value index(const Value& array, const Value& i, Span span);
+  Value expr_field(Context c, const Expr& e);
+  Value expr_select(Context c, const Expr& e, std::size_t arm);
+  Value expr_array(Context c, const Expr& e);
+  Value array_of(std::vector<Value> parts, const std::vector<Span>& spans);
+  Value expr_convert(Context c, const Expr& e);
+  Value expr_call(Context c, const Expr& e);
+  Value evaluate_constant(Binding& b);
+
+  // --- calls (elaborate_call.cpp) ---
+  const Signature& signature(const vm::Builtin* row);
+  std::vector<BoundArgument> arguments(Context c, const Expr& e);
+  Value call_named(Context c, const Path& path, std::vector<BoundArgument> args, Span span);
+  Value call_library(std::string_view name, std::vector<Value> args, Span span);
+  Value call_candidates(const std::vector<std::vector<Candidate>>& levels, std::string_view name,
+                        std::vector<BoundArgument>& args, Span span);
+  Match match(const Candidate& k, const std::vector<BoundArgument>& args);
+  bool bind_formals(const Function& f, const std::vector<BoundArgument>& args, Match& m);
+  Value call_builtin(const vm::Builtin* row, const Match& m, std::vector<BoundArgument>& args, Span span);
+  Value call_spectral(const vm::Builtin* row, const std::vector<Value>& values, Span span);
+  Value make_material(const vm::Builtin* row, const std::vector<Value>& values);
+  Value call_script(FunctionDecl* d, const Match& m, std::vector<BoundArgument>& args, Span span);
+  TypeId formal_type(Context c, TypeHandle h, TypeId actual, const Generics& g);
+  void infer_results(Context c, const Function& f, const std::vector<Value>& formals, Generics& g);
+  Value call_function_value(const Value& f, std::vector<BoundArgument> args, Span span);
+  Value call_lambda(const FunctionValue& f, std::vector<BoundArgument>& args, Span span);
+  Value construct(TypeId type, std::vector<BoundArgument>& args, Span span);
+  Value invoke(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g, TypeId result, Span span);
+  Value inline_body(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g, TypeId result);
+  Value call_instance(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g,
+                      TypeId result, Span span);
+  Ref call_site(Instance& instance, const std::vector<Ref>& args);
+  std::string instance_key(const FunctionDecl* d, const std::vector<Value>& formals) const;
+  std::string describe(const Candidate& k);
+  bool any_known(const std::vector<Value>& values) const;
+  void body(Context c, const Body& b);
+
+  // --- the differentiation pass (derive.cpp) ---
+  using Tangents = std::map<Ref, Ref>;  ///< derivative of a real value; not there: zero
+  std::optional<Ref> tangent(const Tangents& t, Ref r) const;
+  void derive_node(std::uint32_t index, int direction, Tangents& t);
+  void derive_builtin(const Node& n, Ref r, Tangents& t);
+  std::uint16_t derive_function(std::uint16_t function, int direction);
+  Ref sum(std::optional<Ref> a, std::optional<Ref> b);
+  Value derive_gradient(const Value& height, Span span);
+
+  // --- items and descriptors (elaborate_top.cpp) ---
+  void load_library();
+  void add_graph(const Graph& graph, Scope* scope);
+  void import(const Graph& from, const Import& i, Scope* scope);
+  void add_params(const Graph& graph, Scope* scope);
+  void add_aliases(const Graph& graph, Scope* scope);
+  void describe_param(const Graph& graph, const Param& p, Scope* scope);
+  void check_function(FunctionDecl* d);
+  void check_constant(const Graph& graph, const Constant& k, Scope* scope);
+  void descriptor(const Graph& graph, const Descriptor& d, Scope* scope);
+  void outputs(ElaboratedDescriptor& e, Scope* scope);
+  void load_module(const Library::Module& m);
+  void declare_items(const Graph& graph, Scope* scope);
+  void export_value(const std::string& name, const Value& v);
+  std::uint16_t new_function(std::string name);
+  std::uint32_t source_index(const Source* s);
+  vm::SourceLine line_of(Span s);
+
+  const Library& library_;
+  const LinkOptions& options_;
+  Diagnostics& diagnostics_;
+  TypeTable types_;
+  std::deque<Scope> scopes_;
+  std::deque<FunctionDecl> decls_;
+  std::deque<Graph> graphs_;  ///< library modules and imports
+  std::map<std::string, Scope*> imported_;
+  std::map<std::string, Scope*, std::less<>> modules_;
+  std::map<const vm::Builtin*, std::unique_ptr<Signature>> signatures_;
+  std::map<std::string, Instance> instances_;
+  std::map<std::uint16_t, Instance*> instance_of_;
+  std::map<const Source*, std::uint32_t> source_index_;
+  std::map<std::pair<std::uint16_t, int>, std::uint16_t> derived_;  ///< by function and direction
+  Span deriving_;                                   ///< the height that is being differentiated
+  Scope* library_scope_ = nullptr;
+  Scope* program_scope_ = nullptr;
+
+  // Where elaboration stands.
+  std::uint16_t function_ = 0;
+  int dynamic_ = 0;  ///< selects entered whose condition is known only at run time
+  std::vector<Frame> frames_;
+  std::size_t inlined_ = 0;
+  vm::SourceLine line_;
+  bool full_ = false;  ///< a limit was hit and reported: stop making nodes
+};
+
+}  // namespace mms::lang

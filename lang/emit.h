@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Graph to stack bytecode: decides where each value is computed, and in which order.
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+
+#include "lang/ir.h"
+
+namespace mms::lang {
+
+/// Emits functions of a module into a Program, each once, with whatever they call.
+class Emitter {
+ public:
+  Emitter(const Module& module, vm::Program& program);
+
+  /// The program's function that returns `results` of `f`; they are values of `f`, in any order.
+  std::uint32_t emit(std::uint16_t f, std::span<const Ref> results, std::string name);
+
+ private:
+  std::uint32_t callee(std::uint16_t f);
+
+  const Module& module_;
+  vm::Program& program_;
+  std::map<std::uint16_t, std::uint32_t> emitted_;
+  friend class FunctionEmitter;
+};
+
+}  // namespace mms::lang

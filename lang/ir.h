@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// The linker's intermediate form: for each function a graph of pure operations on machine slots.
+/// Aggregates, closures, materials and generics are gone; `If` is a lazy choice between two lists
+/// of values, and where a value is computed is decided only by the emitter.
+
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vm/program.h"
+
+namespace mms::lang {
+
+/// One value: result `result` of node `node` of function `function`.
+struct Ref {
+  std::uint32_t node = 0;
+  std::uint16_t result = 0;
+  std::uint16_t function = 0;
+  friend auto operator<=>(const Ref&, const Ref&) = default;
+};
+
+/// One operation. Besides the arithmetic rows of the opcode table a node may be
+///   PushConst a (constant), PushInput a, LoadLocal a (parameter `a`),
+///   If: args[0] is the condition, then the values of the first arm, then those of the second,
+///   Call a, CallBuiltin a, CallSpectral a b.
+struct Node {
+  vm::Op op = vm::Op::PushConst;
+  std::uint32_t a = 0, b = 0;
+  std::vector<Ref> args;
+  std::vector<vm::SlotType> results;
+  vm::SourceLine line;
+  std::int32_t known = -1;  ///< the constant it is certain to be, where it has one result
+};
+
+struct IrFunction {
+  std::string name;
+  std::vector<vm::SlotType> params;
+  std::vector<Ref> results;
+  std::vector<Node> nodes;
+  bool recursive = false;  ///< can reach itself: computing it where it is not needed may not end
+
+  vm::SlotType type(Ref r) const { return nodes[r.node].results[r.result]; }
+  std::vector<vm::SlotType> result_types() const {
+    std::vector<vm::SlotType> t;
+    for (Ref r : results) t.push_back(type(r));
+    return t;
+  }
+};
+
+/// Everything the passes work on.
+struct Module {
+  std::deque<IrFunction> functions;
+  std::vector<vm::Constant> constants;
+  std::vector<const vm::Builtin*> builtins;
+  std::vector<std::vector<vm::SlotType>> builtin_params, builtin_results;
+
+  std::uint32_t constant(const vm::Constant& c);
+  std::uint32_t builtin(const vm::Builtin* row, const std::vector<vm::SlotType>& params,
+                        const std::vector<vm::SlotType>& results);
+};
+
+/// Adds an operation whose result types the opcode table or `results` gives.
+Ref add_node(IrFunction& f, std::uint16_t function, Node node);
+
+/// Types an operation of the table pushes; empty where the operand decides.
+std::vector<vm::SlotType> pushed_types(vm::Op op);
+
+/// Text of one function, for `--dump-after`.
+std::string dump(const Module& module, const IrFunction& f);
+
+/// What is wrong with the graph, or empty: run after every pass in debug builds.
+std::string check(const Module& module, const IrFunction& f);
+
+}  // namespace mms::lang

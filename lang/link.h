@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Graphs to a verified Program: resolve, check, specialise, optimise, emit. After a successful
+/// link nothing about types can fail.
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lang/ast.h"
+#include "lang/diagnostics.h"
+#include "vm/program.h"
+
+namespace mms::lang {
+
+/// What scripts may call: rows written in C++, and modules written in the language itself.
+struct Library {
+  std::span<const vm::Builtin> builtins;
+  struct Module {
+    std::string_view name;  ///< `noise`
+    std::string_view text;
+  };
+  std::span<const Module> modules;
+};
+
+enum class Level : std::uint8_t { O0, O1, O2 };
+
+struct LinkOptions {
+  Level level = Level::O2;
+  std::vector<std::string> import_path;                        ///< `-I`, in order
+  std::vector<std::pair<std::string, std::string>> params;     ///< `--param name=expression`
+};
+
+/// A pass of the optimiser: what `--dump-after` and the manual print.
+struct PassInfo {
+  std::string_view name, doc;
+};
+std::span<const PassInfo> passes();
+
+/// One `param` of the scripts, as an authoring tool shows it.
+struct ParamInfo {
+  std::string name, type, doc, label, unit, page;
+  std::vector<double> value;  ///< flattened
+  std::optional<std::pair<double, double>> range;
+};
+
+struct Linked {
+  vm::Program program;
+  std::vector<ParamInfo> params;
+  std::vector<std::string> dependencies;  ///< imported files
+};
+
+/// Links `graphs` (and what they import) into a program, or says why not.
+std::optional<Linked> link(std::span<const Graph> graphs, const Library& library,
+                           const LinkOptions& options, Diagnostics& diagnostics);
+
+}  // namespace mms::lang

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/lint.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mms::lang {
+namespace {
+
+const std::vector<std::string> kSurfaceOutputs = {"bsdf",   "scattering", "absorption", "emission_function",
+                                                  "emission", "height",   "gradient",   "bound"};
+const std::vector<std::string> kVolumeOutputs = {"phase", "scattering", "absorption", "emission_function",
+                                                 "emission", "bound"};
+
+/// Where each name is read.
+using Reads = std::multimap<std::string, std::uint32_t, std::less<>>;
+
+Reads reads_of(const Graph& g) {
+  Reads reads;
+  for (const Expr& e : g.exprs)
+    if (e.form == Expr::Form::Name || e.form == Expr::Form::FunctionValue)
+      if (!e.path.empty()) reads.emplace(e.path[0].text, e.span.begin);
+  for (const TypeExpr& t : g.types) {
+    if (t.form == TypeExpr::Form::Named) reads.emplace(t.path[0].text, t.span.begin);
+    for (const TypeExpr::Dim& d : t.dims)
+      if (!d.path.empty()) reads.emplace(d.path[0].text, d.span.begin);
+  }
+  return reads;
+}
+
+bool read_in(const Reads& reads, std::string_view name, Span where) {
+  const auto [begin, end] = reads.equal_range(name);
+  return std::any_of(begin, end, [&](const auto& r) { return where.begin <= r.second && r.second < where.end; });
+}
+
+}  // namespace
+
+void lint(const Graph& g, Diagnostics& diagnostics) {
+  const Reads reads = reads_of(g);
+  for (const Function& f : g.functions)
+    for (const Assignment& a : f.body.assignments)
+      if (!read_in(reads, a.name.text, f.span)) diagnostics.add(Diag::Unused, a.name.span, a.name.text);
+  for (const Descriptor& d : g.descriptors) {
+    const bool surface = d.form == Descriptor::Form::Surface;
+    const std::vector<std::string>& outputs = surface ? kSurfaceOutputs : kVolumeOutputs;
+    for (const Assignment& a : d.body.assignments) {
+      const bool output = std::find(outputs.begin(), outputs.end(), a.name.text) != outputs.end();
+      if (output || read_in(reads, a.name.text, d.span)) continue;
+      const std::string near = nearest(a.name.text, outputs);
+      if (near.empty()) {
+        diagnostics.add(Diag::Unused, a.name.span, a.name.text);
+      } else {
+        diagnostics.add(Diag::SuspiciousOutput, a.name.span, a.name.text, surface ? "surface" : "volume")
+            .help("did you mean `" + near + "`?");
+      }
+    }
+  }
+}
+
+}  // namespace mms::lang

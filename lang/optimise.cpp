@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/optimise.h"
+
+#include <algorithm>
+#include <cassert>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+namespace mms::lang {
+namespace {
+
+using vm::Op;
+using vm::SlotType;
+
+/// Rewrites a function node by node, arguments first. `where` maps a result of the old function to
+/// the new one.
+struct Rewrite {
+  IrFunction out;
+  std::vector<std::vector<Ref>> where;
+
+  explicit Rewrite(const IrFunction& f) : out{f.name, f.params, {}, {}, f.recursive}, where(f.nodes.size()) {}
+
+  Ref at(Ref r) const { return where[r.node][r.result]; }
+  /// Keeps `n` with its arguments mapped.
+  void keep(std::size_t index, Node n, std::uint16_t function) {
+    for (Ref& a : n.args) a = at(a);
+    const Ref r = add_node(out, function, std::move(n));
+    for (std::size_t k = 0; k < out.nodes[r.node].results.size(); ++k)
+      where[index].push_back({r.node, static_cast<std::uint16_t>(k), function});
+  }
+  IrFunction finish(const IrFunction& f) {
+    for (Ref r : f.results) out.results.push_back(at(r));
+    return std::move(out);
+  }
+};
+
+std::uint16_t number_of(const IrFunction& f) { return f.results.empty() ? 0 : f.results[0].function; }
+
+/// Leaves stand first, so that arguments always precede what uses them.
+std::vector<std::uint32_t> order(const IrFunction& f) {
+  std::vector<std::uint32_t> o;
+  for (int leaves = 1; leaves >= 0; --leaves)
+    for (std::uint32_t i = 0; i < f.nodes.size(); ++i)
+      if (f.nodes[i].args.empty() == (leaves == 1)) o.push_back(i);
+  return o;
+}
+
+IrFunction fold_known(const Module&, IrFunction f) {
+  for (Node& n : f.nodes) {
+    if (n.known < 0 || n.op == Op::PushConst) continue;
+    n = {Op::PushConst, static_cast<std::uint32_t>(n.known), 0, {}, n.results, n.line, n.known};
+  }
+  return f;
+}
+
+IrFunction share(const Module&, IrFunction f) {
+  Rewrite w(f);
+  using Key = std::tuple<Op, std::uint32_t, std::uint32_t, std::vector<Ref>>;
+  std::map<Key, std::vector<Ref>> seen;
+  for (std::uint32_t i : order(f)) {
+    Node n = f.nodes[i];
+    Key key{n.op, n.a, n.b, {}};
+    for (Ref a : n.args) std::get<3>(key).push_back(w.at(a));
+    auto it = seen.find(key);
+    if (it != seen.end()) {
+      w.where[i] = it->second;
+      continue;
+    }
+    w.keep(i, std::move(n), number_of(f));
+    seen.emplace(std::move(key), w.where[i]);
+  }
+  return w.finish(f);
+}
+
+/// Identities that hold for every float, NaN, infinity and signed zero included.
+IrFunction simplify(const Module& m, IrFunction f) {
+  Rewrite w(f);
+  auto is = [&](Ref r, double v) {
+    const Node* n = &w.out.nodes[r.node];
+    if (n->op == Op::Splat) n = &w.out.nodes[n->args[0].node];
+    return n->known >= 0 && m.constants[n->known].type == SlotType::Real && m.constants[n->known].f64 == v &&
+           m.constants[n->known].f32 == static_cast<float>(v);
+  };
+  for (std::uint32_t i : order(f)) {
+    const Node& n = f.nodes[i];
+    auto arg = [&](std::size_t k) { return w.at(n.args[k]); };
+    auto inner = [&](Ref r) -> const Node& { return w.out.nodes[r.node]; };
+    std::optional<Ref> same;
+    switch (n.op) {
+      case Op::MulR:
+      case Op::MulS:
+        if (is(arg(1), 1)) same = arg(0);
+        else if (is(arg(0), 1)) same = arg(1);
+        break;
+      case Op::DivR:
+      case Op::DivS:
+        if (is(arg(1), 1)) same = arg(0);
+        break;
+      case Op::NegR:
+      case Op::NegS:
+      case Op::Not:
+        if (inner(arg(0)).op == n.op) same = inner(arg(0)).args[0];
+        break;
+      case Op::SelectR:
+      case Op::SelectI:
+      case Op::SelectL:
+      case Op::SelectS:
+        if (arg(1) == arg(2)) same = arg(1);
+        break;
+      default: break;
+    }
+    if (same) w.where[i] = {*same};
+    else w.keep(i, n, number_of(f));
+  }
+  return w.finish(f);
+}
+
+
+/// Drops nodes nobody reads, and the results of choices that nobody reads.
+IrFunction remove_dead(const Module&, IrFunction f) {
+  // Which results are read; an argument counts only if its choice's result does.
+  std::vector<std::vector<bool>> read(f.nodes.size());
+  std::vector<Ref> pending = f.results;
+  while (!pending.empty()) {
+    const Ref r = pending.back();
+    pending.pop_back();
+    std::vector<bool>& seen = read[r.node];
+    const Node& n = f.nodes[r.node];
+    const bool first = seen.empty();
+    if (first) seen.resize(n.results.size(), false);
+    if (seen[r.result]) continue;
+    seen[r.result] = true;
+    if (n.op == Op::If) {
+      if (first) pending.push_back(n.args[0]);
+      pending.push_back(n.args[1 + r.result]);
+      pending.push_back(n.args[1 + n.results.size() + r.result]);
+    } else if (first) {
+      pending.insert(pending.end(), n.args.begin(), n.args.end());
+    }
+  }
+  Rewrite w(f);
+  for (std::uint32_t i : order(f)) {
+    if (read[i].empty()) continue;
+    const Node& n = f.nodes[i];
+    if (n.op != Op::If) {
+      w.keep(i, n, number_of(f));
+      continue;
+    }
+    Node kept{Op::If, n.a, n.b, {w.at(n.args[0])}, {}, n.line, -1};
+    w.where[i].resize(n.results.size());
+    for (int arm = 0; arm < 2; ++arm)
+      for (std::size_t k = 0; k < n.results.size(); ++k)
+        if (read[i][k]) kept.args.push_back(w.at(n.args[1 + static_cast<std::size_t>(arm) * n.results.size() + k]));
+    for (std::size_t k = 0; k < n.results.size(); ++k)
+      if (read[i][k]) kept.results.push_back(n.results[k]);
+    const Ref r = add_node(w.out, number_of(f), std::move(kept));
+    std::uint16_t next = 0;
+    for (std::size_t k = 0; k < n.results.size(); ++k)
+      if (read[i][k]) w.where[i][k] = {r.node, next++, r.function};
+  }
+  return w.finish(f);
+}
+
+Op select_of(SlotType t) {
+  switch (t) {
+    case SlotType::Integer: return Op::SelectI;
+    case SlotType::Logic: return Op::SelectL;
+    case SlotType::Spectrum: return Op::SelectS;
+    default: return Op::SelectR;
+  }
+}
+
+/// What computing `r` costs, up to a bit above `limit`; anything that may not end is too dear.
+int cost_of(const Module& m, const IrFunction& f, Ref r, int limit, std::vector<bool>& counted) {
+  if (counted[r.node]) return 0;
+  counted[r.node] = true;
+  const Node& n = f.nodes[r.node];
+  if (n.op == Op::Call || n.op == Op::If) return limit + 1;
+  int cost = n.op == Op::CallBuiltin    ? m.builtins[n.a]->cost
+             : n.op == Op::CallSpectral ? 8 * m.builtins[n.a]->cost
+                                        : vm::info(n.op).cost;
+  for (Ref a : n.args) {
+    if (cost > limit) break;
+    cost += cost_of(m, f, a, limit - cost, counted);
+  }
+  return cost;
+}
+
+/// A choice between cheap values computes both: that costs less than a branch over a batch.
+IrFunction convert_ifs(const Module& m, IrFunction f) {
+  constexpr int kCheap = 16;  // measured: an arm that is skipped saves about this much
+  Rewrite w(f);
+  for (std::uint32_t i : order(f)) {
+    const Node& n = f.nodes[i];
+    int cost = 0;
+    if (n.op == Op::If) {
+      std::vector<bool> counted(w.out.nodes.size(), false);
+      for (std::size_t k = 1; k < n.args.size() && cost <= kCheap; ++k)
+        cost += cost_of(m, w.out, w.at(n.args[k]), kCheap - cost, counted);
+    }
+    if (n.op != Op::If || cost > kCheap) {
+      w.keep(i, n, number_of(f));
+      continue;
+    }
+    for (std::size_t k = 0; k < n.results.size(); ++k)
+      w.where[i].push_back(add_node(w.out, number_of(f),
+                                    {select_of(n.results[k]), 0, 0,
+                                     {w.at(n.args[0]), w.at(n.args[1 + k]), w.at(n.args[1 + n.results.size() + k])},
+                                     {}, n.line, -1}));
+  }
+  return w.finish(f);
+}
+
+constexpr Pass kPipeline[] = {
+    {{"fold", "replace what is known at link time by constants, computed with the machine's kernels"}, Level::O1, fold_known},
+    {{"dead", "drop values nobody reads"}, Level::O0, remove_dead},
+    {{"share", "compute equal pure expressions once"}, Level::O1, share},
+    {{"simplify", "apply identities that hold for every float"}, Level::O2, simplify},
+    {{"if-convert", "compute both sides of a cheap choice instead of branching"}, Level::O2, convert_ifs},
+    {{"share-again", "compute once what the last passes made equal"}, Level::O2, share},
+    {{"dead-again", "drop what the last passes left behind"}, Level::O1, remove_dead},
+};
+
+}  // namespace
+
+std::span<const Pass> pipeline() { return kPipeline; }
+
+std::span<const PassInfo> passes() {
+  static const std::vector<PassInfo> infos = [] {
+    std::vector<PassInfo> v;
+    for (const Pass& p : kPipeline) v.push_back(p.info);
+    return v;
+  }();
+  return infos;
+}
+
+void optimise(Module& module, Level level) {
+  for (IrFunction& f : module.functions) {
+    if (f.results.empty()) continue;
+    for (const Pass& p : kPipeline) {
+      if (level < p.from) continue;
+      f = p.run(module, std::move(f));
+      assert(check(module, f).empty());
+    }
+  }
+}
+
+}  // namespace mms::lang

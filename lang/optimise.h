@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Passes over the linker's graph: each takes a function and returns a better one of the same
+/// value, bit for bit. What runs at which level is one table.
+
+#include "lang/ir.h"
+#include "lang/link.h"
+
+namespace mms::lang {
+
+struct Pass {
+  PassInfo info;
+  Level from;  ///< the lowest level that runs it
+  IrFunction (*run)(const Module&, IrFunction);
+};
+
+/// The pipeline, in order.
+std::span<const Pass> pipeline();
+
+/// Runs the passes of `level` over every function.
+void optimise(Module& module, Level level);
+
+}  // namespace mms::lang

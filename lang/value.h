@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// What an expression is while the linker works on it: machine values, and everything that is
+/// gone afterwards (arrays, structures, functions, materials, strings).
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lang/ast.h"
+#include "lang/ir.h"
+#include "lang/types.h"
+
+namespace mms::lang {
+
+struct Scope;
+struct Value;
+
+/// A function of a script or of a module of the library, with the scope it was defined in.
+struct FunctionDecl {
+  const Graph* graph = nullptr;
+  FunctionHandle handle;
+  Scope* scope = nullptr;
+  bool library = false;
+  bool recursive = false;  ///< it was seen to call itself under a condition known only at run time
+  const Function& function() const { return (*graph)[handle]; }
+};
+
+/// A lambda, `#name`, or `#op`.
+struct FunctionValue {
+  const Graph* graph = nullptr;  ///< of `lambda`
+  ExprHandle lambda;
+  Scope* scope = nullptr;  ///< of `lambda`, or where `path` is looked up
+  Path path;               ///< `#path`
+  std::optional<Operator> op;
+  Span span;
+};
+
+/// A material expression: one scattering model or combiner, its numbers and its parts.
+struct MaterialTree {
+  const vm::Builtin* row = nullptr;
+  std::vector<Ref> params;
+  std::vector<vm::SlotType> types;  ///< of `params`
+  std::vector<std::shared_ptr<const MaterialTree>> children;
+  int size() const {
+    int n = 1;
+    for (const auto& c : children) n += c->size();
+    return n;
+  }
+};
+using MaterialPtr = std::shared_ptr<const MaterialTree>;
+
+struct Value {
+  TypeId type = TypeTable::kPoison;
+  std::vector<Ref> refs;     ///< scalars: one; complex: real part, imaginary part
+  std::vector<Value> parts;  ///< arrays and structures
+  MaterialPtr material;
+  std::shared_ptr<const FunctionValue> function;
+  std::string text;
+
+  bool poison() const { return type == TypeTable::kPoison; }
+};
+
+/// What a name stands for.
+struct Binding {
+  enum class Form : std::uint8_t { Value, Functions, Constant, Type, Namespace };
+  Form form = Form::Value;
+  Span span;
+  bool library = false;
+
+  Value value;                           // Value
+  std::vector<FunctionDecl*> functions;  // Functions
+  std::vector<const vm::Builtin*> rows;  // Functions of the library
+  TypeId type = TypeTable::kPoison;      // Type; Constant: what it is converted to, if anything
+  Scope* scope = nullptr;                // Namespace; Constant: where it is evaluated
+  const Graph* graph = nullptr;          // Constant
+  TypeHandle stated;                     // Constant
+  ExprHandle expr;                       // Constant
+  bool busy = false;                     // Constant: being evaluated
+  std::map<std::uint16_t, Value> cache;  // Constant: by function it was evaluated in
+};
+
+struct Scope {
+  Scope* parent = nullptr;
+  bool library = false;
+  std::map<std::string, Binding, std::less<>> names;
+};
+
+}  // namespace mms::lang
