@@ -14,6 +14,29 @@ namespace mms::lang {
 using vm::Op;
 using vm::SlotType;
 
+namespace {
+
+/// The nodes whose derivative the derivative of `roots` asks for: conditions and integers are not
+/// among them, so what only they need may lack a rule.
+std::vector<bool> needed(const IrFunction& f, const std::vector<Ref>& roots) {
+  std::vector<bool> seen(f.nodes.size(), false);
+  std::vector<std::uint32_t> pending;
+  auto visit = [&](Ref r) {
+    if (f.type(r) != SlotType::Real || seen[r.node]) return;
+    seen[r.node] = true;
+    pending.push_back(r.node);
+  };
+  for (Ref r : roots) visit(r);
+  while (!pending.empty()) {
+    const std::uint32_t n = pending.back();
+    pending.pop_back();
+    for (Ref a : f.nodes[n].args) visit(a);
+  }
+  return seen;
+}
+
+}  // namespace
+
 std::optional<Ref> Elaborator::tangent(const Tangents& t, Ref r) const {
   auto it = t.find(r);
   return it == t.end() ? std::nullopt : std::optional<Ref>(it->second);
@@ -102,7 +125,9 @@ std::uint16_t Elaborator::derive_function(std::uint16_t function, int direction)
     const std::uint32_t p = tangent_param[n.a];
     t[{i, 0, derived}] = node(Op::LoadLocal, {}, p, 0, {SlotType::Real});
   }
-  for (std::uint32_t i = 0; i < count; ++i) derive_node(i, direction, t);
+  const std::vector<bool> wanted = needed(to, from.results);
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (wanted[i]) derive_node(i, direction, t);
   std::vector<Ref> results;
   for (Ref r : from.results) {
     r.function = derived;
@@ -202,9 +227,11 @@ Value Elaborator::derive_gradient(const Value& height, Span span) {
   deriving_ = span;
   std::vector<Value> parts;
   const std::uint32_t count = static_cast<std::uint32_t>(module.functions[function_].nodes.size());
+  const std::vector<bool> wanted = needed(module.functions[function_], height.refs);
   for (int direction = 0; direction < 2; ++direction) {
     Tangents t;
-    for (std::uint32_t i = 0; i < count; ++i) derive_node(i, direction, t);
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (wanted[i]) derive_node(i, direction, t);
     const auto d = tangent(t, height.refs[0]);
     parts.push_back(scalar(TypeTable::kReal, d ? *d : real(0)));
   }

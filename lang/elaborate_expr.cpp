@@ -357,8 +357,10 @@ Value Elaborator::expr_field(Context c, const Expr& e) {
     if (!near.empty()) d.help(fmt::format("did you mean `{}`?", near));
     return {};
   }
+  if (v.type == kComplex && name == "re") return scalar(kReal, v.refs[0]);
+  if (v.type == kComplex && name == "im") return scalar(kReal, v.refs[1]);
   Diagnostic& d = diagnostics_.add(Diag::NoField, e.path[0].span, spell(v), name);
-  if (v.type == kComplex) d.help("write `re(z)` and `im(z)`");
+  if (v.type == kComplex) d.help("a complex number has `re` and `im`");
   return {};
 }
 

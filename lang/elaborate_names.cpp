@@ -210,8 +210,8 @@ bool Elaborator::unify_dim(Context c, const TypeExpr::Dim& d, int size, Generics
   if (it != g.dims.end()) return it->second == size;
   if (d.form == Form::Named) {
     Binding* b = find(c, d.path);
-    if (b && b->form == Binding::Form::Constant) {
-      const auto n = known_integer(evaluate_constant(*b));
+    if (b && (b->form == Binding::Form::Constant || b->form == Binding::Form::Value)) {
+      const auto n = known_integer(b->form == Binding::Form::Constant ? evaluate_constant(*b) : b->value);
       return n && *n == size;
     }
   }

@@ -197,11 +197,11 @@ bool Parser::habit(Want want) {
               "`[1, 2, 3]`");
       return true;
     case Tok::KwIf:
-      if (want != Want::Expression) return false;
+      if (want != Want::Expression) break;
       report(Diag::IfExpression, where).help("write `select a, if c; b otherwise end`");
       return true;
     case Tok::KwFunction:
-      if (want != Want::Expression) return false;
+      if (want != Want::Expression) break;
       report(Diag::LambdaOperand, where).help("write `(function(x) -> ...)`");
       return true;
     default:
@@ -279,7 +279,8 @@ void Parser::skip_statement() {
       }
     } else if (statement_ends()) {
       break;
-    } else if (tok == Tok::Semicolon && selects == 0 && !(in_array && array_goes_on())) {
+    } else if (tok == Tok::Semicolon && selects == 0 && braces == 0 &&
+               !(in_array && array_goes_on())) {
       take();
       break;
     } else if (tok == Tok::KwSelect) {
