@@ -204,6 +204,7 @@ Elaborator::Match Elaborator::match(const Candidate& k, const std::vector<BoundA
   const Function& f = s ? s->function() : k.decl->function();
   const Context c = s ? Context{&s->graph, library_scope_} : Context{k.decl->graph, k.decl->scope};
   if (!bind_formals(f, args, m)) return m;
+  for (const Formal& formal : f.formals) collect_generics(c, formal.type, m.generics);
   int cost = 0;
   for (std::size_t i = 0; i < f.formals.size(); ++i) {
     if (m.argument[i] < 0) continue;

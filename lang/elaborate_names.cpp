@@ -219,13 +219,21 @@ bool Elaborator::unify_dim(Context c, const TypeExpr::Dim& d, int size, Generics
   return true;
 }
 
+/// A generic may be used before the formal that introduces it: `T[n] xs, function(generic T) ...`.
+void Elaborator::collect_generics(Context c, TypeHandle h, Generics& g) {
+  const TypeExpr& t = (*c.graph)[h];
+  if (t.form == TypeExpr::Form::Generic) g.names.insert(t.path[0].text);
+  if (t.form == TypeExpr::Form::Array || t.form == TypeExpr::Form::Function) collect_generics(c, t.element, g);
+  for (TypeHandle f : t.formals) collect_generics(c, f, g);
+}
+
 /// Fits `actual` to a formal's type, binding generics and dimension variables on the way.
 bool Elaborator::unify(Context c, TypeHandle pattern, TypeId actual, Generics& g, int& cost) {
   constexpr int kGenericCost = 10;  // an exact overload beats a generic one
   if (actual == TypeTable::kPoison) return true;
   const TypeExpr& t = (*c.graph)[pattern];
-  const bool bound = t.path.size() == 1 && g.types.count(t.path[0].text) > 0;
-  if (t.form == TypeExpr::Form::Generic || (t.form == TypeExpr::Form::Named && bound)) {
+  const bool introduced = t.path.size() == 1 && g.names.count(t.path[0].text) > 0;
+  if (t.form == TypeExpr::Form::Generic || (t.form == TypeExpr::Form::Named && introduced)) {
     cost += kGenericCost;
     auto [it, is_new] = g.types.try_emplace(t.path[0].text, actual);
     if (is_new) return true;

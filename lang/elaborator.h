@@ -70,6 +70,7 @@ class Elaborator {
   struct Generics {
     std::map<std::string, TypeId> types;
     std::map<std::string, int> dims;
+    std::set<std::string> names;  ///< of every `generic T` in the formals, bound yet or not
   };
   struct Match {
     int cost = -1;  ///< -1: does not fit
@@ -116,6 +117,7 @@ class Elaborator {
   TypeId resolve_type(Context c, TypeHandle h, const Generics* generics);
   int resolve_dim(Context c, const TypeExpr::Dim& d, const Generics* generics);
   bool unify(Context c, TypeHandle pattern, TypeId actual, Generics& g, int& cost);
+  void collect_generics(Context c, TypeHandle h, Generics& g);
   bool unify_dim(Context c, const TypeExpr::Dim& d, int size, Generics& g);
 
   // --- nodes and values (elaborate_values.cpp) ---

@@ -305,7 +305,7 @@ void Frame<R>::pass() {
         binary<And, L, L>(i);
         break;
       case LoweredOp::Or:
-      case LoweredOp::MaskOr:
+
         binary<Or, L, L>(i);
         break;
       case LoweredOp::Not:

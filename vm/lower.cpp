@@ -66,7 +66,7 @@ class FunctionLowering {
       line_ = f_.lines[pc];
       step(f_.code[pc]);
     }
-    land(skips_);
+    for (const std::size_t pc : skips_) land(pc);
     emit(LoweredOp::Return);
     row_.end = std::uint32_t(code_.instructions.size());
     row_.masks = masks_;
@@ -96,7 +96,6 @@ class FunctionLowering {
     Operand then_mask, else_mask;
     Current outer;
     std::size_t if_pc;
-    std::vector<std::size_t> outer_skips;
     bool in_else = false;
     // of the first arm, once it has ended:
     std::size_t skip_pc = 0;
@@ -154,9 +153,6 @@ class FunctionLowering {
   }
   void land(std::size_t pc) {
     code_.instructions[pc].target = std::uint32_t(code_.instructions.size());
-  }
-  void land(const std::vector<std::size_t>& skips) {
-    for (const std::size_t pc : skips) land(pc);
   }
 
   void push(Operand at, SlotType type) { stack_.push_back({at, type}); }
@@ -262,8 +258,6 @@ class FunctionLowering {
     arms.results = results;
     arms.if_pc = emit(LoweredOp::If, arms.then_mask, cond.at, cur_.at, arms.else_mask);
     slots_.refer(cond.at, -1);
-    arms.outer_skips = std::move(skips_);
-    skips_.clear();
     cur_ = {arms.then_mask, false};
     arms_.push_back(std::move(arms));
   }
@@ -274,8 +268,6 @@ class FunctionLowering {
     arms.then_dead = dead_;
     arms.then_cur = cur_;
     if (!dead_) arms.then_values = pop(arms.results);
-    land(skips_);
-    skips_.clear();
     arms.skip_pc = emit(LoweredOp::SkipIfNone, {}, arms.else_mask);
     land(arms.if_pc);
     cur_ = {arms.else_mask, false};
@@ -287,8 +279,6 @@ class FunctionLowering {
     Arms arms = std::move(arms_.back());
     arms_.pop_back();
     land(arms.skip_pc);
-    land(skips_);
-    skips_ = std::move(arms.outer_skips);
     if (!arms.then_dead && !dead_)
       join(arms);
     else
@@ -303,8 +293,10 @@ class FunctionLowering {
     if (whole) {
       cur_ = arms.outer;
     } else {
+      within(arms.then_cur, arms.then_mask);
+      within(cur_, arms.else_mask);
       const Operand m = new_mask();
-      emit(LoweredOp::MaskOr, m, arms.then_cur.at, cur_.at);
+      emit(LoweredOp::Or, m, arms.then_cur.at, cur_.at);
       release(arms.then_cur);
       release(cur_);
       release(arms.outer);
@@ -335,20 +327,34 @@ class FunctionLowering {
     stack_.insert(stack_.end(), arms.then_values.begin(), arms.then_values.end());
     release(lost);
     if (both_dead) release(left);
+    dead_ = both_dead;
+    if (both_dead)
+      cur_ = arms.outer;
+    else
+      resume(arms, left);
     for (const Operand m : {arms.then_mask, arms.else_mask})
       if (both_dead || m != left.at) free_mask(m);
-    dead_ = both_dead;
-    if (both_dead) {
-      cur_ = arms.outer;
-      return;
-    }
+  }
+
+  /// Goes on behind the arms with the lanes of one.
+  void resume(const Arms& arms, Current left) {
+    within(left, arms.then_dead ? arms.else_mask : arms.then_mask);
     release(arms.outer);
     cur_ = {left.at, true};
     skip_if_none();
   }
 
-  /// The lanes that left may have been all of them: then go on where the enclosing arm ends.
-  void skip_if_none() { skips_.push_back(emit(LoweredOp::SkipIfNone, {}, cur_.at)); }
+  /// The mask that an arm ends with, if it is not the arm's own, was not made in a run that skipped
+  /// the arm. There the arm's own is empty.
+  void within(Current end, Operand arm) {
+    if (end.at != arm) emit(LoweredOp::And, end.at, end.at, arm);
+  }
+
+  /// The lanes that left may have been all of them. Only outside of arms: a join reads the masks
+  /// that its arms made.
+  void skip_if_none() {
+    if (arms_.empty()) skips_.push_back(emit(LoweredOp::SkipIfNone, {}, cur_.at));
+  }
 
   // Calls
 
@@ -493,7 +499,7 @@ class FunctionLowering {
   Slots slots_;
 
   std::vector<Arms> arms_;
-  std::vector<std::size_t> skips_;  // instructions that go to the end of the current arm
+  std::vector<std::size_t> skips_;  // instructions that go to the end of the code
   Current cur_;
   Operand next_;
   bool dead_ = false;

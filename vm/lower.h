@@ -29,14 +29,12 @@ namespace mms::vm {
 ///  TailCall    |            | mask     |             |           |
 ///  Return      |            |          |             |           | end of the function's code
 ///  Copy        | result     | block    |             |           |
-///  MaskOr      | mask       | mask     | mask        |           |
 ///  SkipIfNone  |            | mask     |             |           | if no lane: where to go
 enum class LoweredOp : std::uint8_t {
 #define OP(name, ...) name,
 #include "vm/opcodes.def"
 #undef OP
   Copy,
-  MaskOr,
   SkipIfNone,
 };
 

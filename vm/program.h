@@ -139,7 +139,7 @@ struct Descriptor {
   DescriptorForm form = DescriptorForm::Surface;
   std::string name;
   SourceLine line;
-  Entry shade;     ///< every output but `bound`: what a path vertex needs
+  Entry shade;     ///< every output but `height` and `bound`: what a path vertex needs
   Entry pass;      ///< scattering and absorption: what a shadow ray needs
   Entry emit;      ///< emission and emission_function: what sampling an emitter needs
   Entry displace;  ///< height and bound

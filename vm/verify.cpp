@@ -158,7 +158,7 @@ Fault verify_descriptor(const Program& program, const Descriptor& d) {
     const Entry& entry;
     Computed computed;
   } entries[] = {
-      {d.shade, {true, true, surface, surface, false}},
+      {d.shade, {true, true, false, surface, false}},
       {d.pass, {true, false, false, false, false}},
       {d.emit, {false, true, false, false, false}},
       {d.displace, {false, false, surface, false, true}},
