@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// A surface's scattering at one point: the lobes of a Layout with the numbers of one lane.
+/// Borrows both; owns nothing; never allocates, throws or prints. Cheap to make.
+///
+/// The contract of every function here:
+///
+/// * Frame. Local, z the shading normal. `wo` (towards where the path came from) and `wi` (towards
+///   where it goes) are unit vectors that both point away from the surface. z < 0 is the inside:
+///   `ior` of a dielectric is inside over outside. Lobes that reflect do so on both sides.
+/// * Value. `f` per steradian, the cosine NOT included: contribution = f |wi.z| Li / pdf.
+/// * Pdf. Per steradian. Element j is the density with which this direction would have been
+///   drawn if wavelength j had been the hero (lobe choice included), with the same numbers.
+///   Element 0, the hero's, is the density it was drawn with. For the one-sample MIS over
+///   wavelengths sum over j; for a single wavelength use element 0.
+/// * Deltas. `eval` and `pdf` see only what is not a delta. A sample with `specular` set is of the
+///   deltas alone: `f` and `pdf` then share one implicit delta, so the same quotient holds, and
+///   pdf[j] is the discrete probability that j as the hero would have led to this very direction: 0
+///   (and f[j] = 0) where a refraction is dispersed away from the hero's. Deltas that coincide
+///   are summed in both f and pdf.
+/// * No sample. An empty optional: nothing scatters at the hero's wavelength, or the direction fell
+///   where f is 0. It is part of the distribution: count the path as ended, do not draw again.
+/// * Mode. Radiance: `wi` is where light comes from, refraction scales f by (n_o/n_i)^2 (radiance
+///   is compressed). Importance: `wi` is where light goes on to (light and photon paths), no scale.
+///   f_Importance(wo, wi) = f_Radiance(wi, wo). Nothing else depends on the mode.
+/// * Numbers out of range (negative or NaN colour, roughness, ...) are clamped into range.
+
+#include <optional>
+#include <type_traits>
+
+#include "materials/combine.h"
+#include "materials/conductor.h"
+#include "materials/dielectric.h"
+#include "materials/glossy.h"
+#include "materials/layout.h"
+#include "materials/lobe.h"
+#include "materials/matte.h"
+#include "materials/microfacet.h"
+#include "materials/specular.h"
+
+namespace mms::materials {
+
+template <class R>
+struct BsdfSample {
+  Vec3<R> wi;
+  Spectrum<R> f;    ///< cosine not included
+  Spectrum<R> pdf;  ///< element 0 > 0
+  bool specular = false;
+  bool transmitted = false;  ///< wi and wo are on different sides
+};
+
+template <class R>
+class Bsdf {
+ public:
+  /// `params` holds layout.param_count() numbers in the order layout.h states. Both are borrowed.
+  Bsdf(const Layout& layout, const R* params) : layout_(&layout), params_(params) {}
+
+  /// f without deltas; black where wo or wi is in the surface (|z| < 1e-19 in float).
+  Spectrum<R> eval(Vec3<R> wo, Vec3<R> wi, Mode mode) const { return evaluate(wo, wi, mode).f; }
+
+  /// Densities without deltas.
+  Spectrum<R> pdf(Vec3<R> wo, Vec3<R> wi, Mode mode) const { return evaluate(wo, wi, mode).pdf; }
+
+  /// `eval` and `pdf` at once, for about the price of one.
+  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode) const;
+
+  /// Draws `wi` for the hero from three numbers in [0, 1).
+  std::optional<BsdfSample<R>> sample(Vec3<R> wo, R u_lobe, R u1, R u2, Mode mode) const;
+
+  /// With these very numbers every lobe is a delta: `eval` is black, connecting to a light is vain.
+  bool specular_only() const;
+
+ private:
+  /// How likely each lobe is chosen, for each wavelength as the hero.
+  struct Choice {
+    PerNode<Spectrum<R>> probability;  ///< of lobes only
+    bool any = false;                  ///< the hero has something to choose from
+  };
+  void choose(Vec3<R> wo, Choice& choice) const;
+  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const;
+  std::optional<BsdfSample<R>> sample_specular(int lobe, Vec3<R> wo, R u, Mode mode,
+                                               const Choice& choice) const;
+  std::optional<BsdfSample<R>> sample_smooth(int lobe, Vec3<R> wo, R u, R u1, R u2, Mode mode,
+                                             const Choice& choice) const;
+
+  /// `visit(model)` for the lobe of node `i`; `none` for combiners and phase functions.
+  template <class Result, class Visit>
+  Result with_model(int i, Result none, Visit visit) const;
+
+  bool node_is_specular(int i) const;
+  int node_count() const { return int(layout_->nodes().size()); }
+
+  const Layout* layout_;
+  const R* params_;
+};
+
+// ---- implementation
+
+namespace detail {
+
+/// True of models that can be a delta, and of those that can be something else.
+template <class M>
+concept CanBeSpecular = requires(const M& m) {
+  m.terms({});
+};
+template <class M>
+concept CanBeSmooth = requires(const M& m) {
+  m.evaluate({}, {}, Mode{});
+};
+
+template <class M>
+inline bool is_specular(const M& model) {
+  if constexpr (!CanBeSmooth<M>)
+    return true;
+  else if constexpr (!CanBeSpecular<M>)
+    return false;
+  else
+    return model.specular();
+}
+
+}  // namespace detail
+
+template <class R>
+template <class Result, class Visit>
+Result Bsdf<R>::with_model(int i, Result none, Visit visit) const {
+  const Layout::Node& node = layout_->nodes()[i];
+  const R* p = params_ + node.first_param;
+  switch (node.lobe) {
+    case Lobe::Matte:
+      return visit(Matte<R>(p));
+    case Lobe::Translucent:
+      return visit(Translucent<R>(p));
+    case Lobe::Glossy:
+      return visit(Glossy<R>(p));
+    case Lobe::Microfacet:
+      return visit(Microfacet<R>(p));
+    case Lobe::Conductor:
+      return visit(Conductor<R>(p));
+    case Lobe::Dielectric:
+      return visit(Dielectric<R>(p));
+    case Lobe::Mirror:
+      return visit(Mirror<R>(p));
+    case Lobe::Refraction:
+      return visit(Refraction<R>(p));
+    case Lobe::Isotropic:
+    case Lobe::HenyeyGreenstein:
+    case Lobe::Mix:
+    case Lobe::FresnelMix:
+    case Lobe::Scale:
+    case Lobe::Add:
+      break;
+  }
+  return none;
+}
+
+template <class R>
+bool Bsdf<R>::node_is_specular(int i) const {
+  return with_model(i, false, [](const auto& model) { return detail::is_specular(model); });
+}
+
+template <class R>
+bool Bsdf<R>::specular_only() const {
+  for (int i = 0; i < node_count(); ++i)
+    if (with_model(i, false, [](const auto& model) { return !detail::is_specular(model); }))
+      return false;
+  return true;
+}
+
+template <class R>
+void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
+  auto& probability = choice.probability.of;
+  Spectrum<R> sum;
+  if (node_count() > 0) weigh_for_choice(*layout_, params_, std::abs(wo.z), choice.probability);
+  for (int i = 0; i < node_count(); ++i) {
+    probability[i] *= with_model(i, Spectrum<R>(), [&](const auto& m) { return m.estimate(wo); });
+    sum += probability[i];
+  }
+  // Below this the inverse would overflow: black.
+  const R least = std::numeric_limits<R>::min() / std::numeric_limits<R>::epsilon();
+  for (int j = 0; j < kWavelengths; ++j) sum[j] = sum[j] > least ? 1 / sum[j] : R(0);
+  for (int i = 0; i < node_count(); ++i) probability[i] *= sum;
+  choice.any = sum[0] > 0;
+}
+
+template <class R>
+Lobes<R> Bsdf<R>::evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode) const {
+  if (in_surface(wo) || in_surface(wi)) return {};
+  Choice choice;
+  choose(wo, choice);
+  return evaluate(wo, wi, mode, choice);
+}
+
+template <class R>
+Lobes<R> Bsdf<R>::evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const {
+  Lobes<R> total;
+  if (node_count() == 0) return total;
+  PerNode<NodeWeight<R>> weights;
+  weigh(*layout_, params_, std::abs(wo.z), std::abs(wi.z), weights);
+  for (int i = 0; i < node_count(); ++i) {
+    with_model(i, 0, [&](const auto& model) {
+      using Model = std::decay_t<decltype(model)>;
+      if constexpr (detail::CanBeSmooth<Model>) {
+        if (detail::is_specular(model)) return 0;
+        constexpr bool lambert =
+            std::is_same_v<Model, Matte<R>> || std::is_same_v<Model, Translucent<R>>;
+        const Lobes<R> l = model.evaluate(wo, wi, mode);
+        total.f += l.f * (lambert ? weights.of[i].lambert : weights.of[i].other);
+        total.pdf += l.pdf * choice.probability.of[i];
+      }
+      return 0;
+    });
+  }
+  return total;
+}
+
+template <class R>
+std::optional<BsdfSample<R>> Bsdf<R>::sample(Vec3<R> wo, R u_lobe, R u1, R u2, Mode mode) const {
+  if (in_surface(wo)) return {};
+  Choice choice;
+  choose(wo, choice);
+  if (!choice.any) return {};
+  // Choose a lobe by the hero's probabilities, and stretch what is left of the number.
+  int chosen = -1;
+  R u = 0;
+  for (int i = 0; i < node_count(); ++i) {
+    const R p = choice.probability.of[i][0];
+    if (!(p > 0)) continue;
+    chosen = i;
+    u = u_lobe / p;
+    if (u_lobe < p) break;
+    u_lobe -= p;
+  }
+  if (chosen < 0) return {};
+  u = std::min(u, 1 - std::numeric_limits<R>::epsilon() / 2);
+  return node_is_specular(chosen) ? sample_specular(chosen, wo, u, mode, choice)
+                                  : sample_smooth(chosen, wo, u, u1, u2, mode, choice);
+}
+
+template <class R>
+std::optional<BsdfSample<R>> Bsdf<R>::sample_smooth(int lobe, Vec3<R> wo, R u, R u1, R u2,
+                                                    Mode mode, const Choice& choice) const {
+  BsdfSample<R> s;
+  const bool drawn = with_model(lobe, false, [&](const auto& model) {
+    if constexpr (detail::CanBeSmooth<std::decay_t<decltype(model)>>)
+      return model.sample(wo, u, u1, u2, s.wi);
+    else
+      return false;
+  });
+  if (!drawn) return {};
+  if (in_surface(s.wi)) return {};
+  const Lobes<R> l = evaluate(wo, s.wi, mode, choice);
+  s.f = l.f;
+  s.pdf = l.pdf;
+  s.transmitted = !same_side(wo, s.wi);
+  if (!(s.pdf[0] > 0) || !std::isfinite(s.pdf[0])) return {};
+  return s;
+}
+
+template <class R>
+std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u, Mode mode,
+                                                      const Choice& choice) const {
+  const auto terms_of = [&](int i) {
+    return with_model(i, SpecularTerms<R>{}, [&](const auto& model) {
+      if constexpr (detail::CanBeSpecular<std::decay_t<decltype(model)>>)
+        if (detail::is_specular(model)) return model.terms(wo);
+      return SpecularTerms<R>{};
+    });
+  };
+  // Choose between reflection and refraction by the hero's probabilities.
+  const SpecularTerms<R> mine = terms_of(lobe);
+  const bool reflect = u < mine.reflect_probability[0];
+  if (!reflect && !(mine.transmit_probability[0] > 0)) return {};
+  BsdfSample<R> s;
+  s.specular = true;
+  s.transmitted = !reflect;
+  const R eta = mine.eta[0];
+  s.wi = reflect ? mirrored(wo) : refracted(wo, eta);
+  const R cos_i = std::abs(s.wi.z);
+  if (in_surface(s.wi)) return {};
+  // Sum the deltas of all lobes that fall on this very direction.
+  PerNode<NodeWeight<R>> weights;
+  weigh(*layout_, params_, std::abs(wo.z), cos_i, weights);
+  for (int i = 0; i < node_count(); ++i) {
+    const SpecularTerms<R> t = terms_of(i);
+    for (int j = 0; j < kWavelengths; ++j) {
+      if (!reflect && t.eta[j] != eta) continue;
+      const R scale = reflect || mode == Mode::Importance ? R(1) : 1 / (eta * eta);
+      s.f[j] += weights.of[i].other[j] * (reflect ? t.reflect_weight : t.transmit_weight)[j] *
+                scale / cos_i;
+      s.pdf[j] += choice.probability.of[i][j] *
+                  (reflect ? t.reflect_probability : t.transmit_probability)[j];
+    }
+  }
+  if (!(s.pdf[0] > 0)) return {};
+  return s;
+}
+
+}  // namespace mms::materials

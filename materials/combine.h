@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// How combiners weigh their children: from the root down, a factor for each node. Factors of
+/// `mix`, `scale` and `add` are numbers; those of `fresnel_mix` depend on both directions.
+///
+/// `fresnel_mix(base, coat, ior)`, F = F(|wo.z|), F' = F(|wi.z|), both from outside the coat:
+///   coat: min(F, F')            for a delta F itself, as both angles are the same
+///   base: 1 - max(F, F')        or, for the Lambert lobes right below it,
+///         (1 - F)(1 - F') / (1 - mean F)    (Kelemen and Szirmay-Kalos 2001), whose integral over
+///                               wi is exactly 1 - F
+/// All are symmetric. Measured for a white matte under a white `glossy` of gloss 1 to 1000 and
+/// index 1.2 to 2.5: the mean of F and F' as the coat's factor reaches albedo 1.021, sqrt(F
+/// F') 1.013, F at the half vector 1.004; min(F, F') never exceeds 1 and loses only near grazing
+/// (gloss 40, index 1.5: 0.997 at 60 degrees, 0.983 at 75, 0.895 at 85, 0.60 at 89.99). As min(F,
+/// F') <= F and 1 - max(F, F') <= 1 - F, a lossless base under a lossless coat never exceeds albedo
+/// 1, and a specular coat over a Lambert base is 1 exactly. Of nested `fresnel_mix`, only the one
+/// nearest the Lambert lobe uses the product, for the same bound.
+
+#include <array>
+
+#include "materials/fresnel.h"
+#include "materials/layout.h"
+#include "materials/lobe.h"
+
+namespace mms::materials {
+
+/// Factors of one node, for lobes that are not Lambert's and for those that are.
+template <class R>
+struct NodeWeight {
+  Spectrum<R> other{R(1)}, lambert{R(1)};
+};
+
+/// One entry for each node of a layout; entries beyond it are not initialised.
+template <class T>
+union PerNode {
+  PerNode() {}
+  std::array<T, kMaxNodes> of;
+};
+
+namespace detail {
+
+/// Calls `body(j, repeated)` for each wavelength, `repeated` where its number is the one before.
+template <class R, class Body>
+inline void for_each_index(const R* p, Body body) {
+  for (int j = 0; j < kWavelengths; ++j) body(j, j > 0 && p[j] == p[j - 1]);
+}
+
+/// The split at |cos| `c` for each wavelength's index.
+template <class R>
+inline void fresnel_splits(const R* ior, R c, Spectrum<R>& reflected, Spectrum<R>& transmitted) {
+  c = limited(c, R(0), R(1));
+  for_each_index(ior, [&](int j, bool repeated) {
+    const FresnelSplit<R> s = repeated ? FresnelSplit<R>{reflected[j - 1], transmitted[j - 1]}
+                                       : fresnel_split(c, relative_eta(ior[j], Vec3<R>{0, 0, 1}));
+    reflected[j] = s.reflected;
+    transmitted[j] = s.transmitted;
+  });
+}
+
+template <class R>
+inline void weigh_fresnel_mix(const R* ior, R cos_o, R cos_i, const NodeWeight<R>& w,
+                              NodeWeight<R>& base, NodeWeight<R>& coat) {
+  Spectrum<R> ro, to, ri, ti, diffuse;
+  fresnel_splits(ior, cos_o, ro, to);
+  fresnel_splits(ior, cos_i, ri, ti);
+  for_each_index(ior, [&](int j, bool repeated) {
+    diffuse[j] = repeated ? diffuse[j - 1]
+                          : 1 - fresnel_dielectric_diffuse(relative_eta(ior[j], Vec3<R>{0, 0, 1}));
+    // The factor of an outer mix stays in its bounded form: w.other, not w.lambert.
+    coat.other[j] = coat.lambert[j] = w.other[j] * std::min(ro[j], ri[j]);
+    base.other[j] = w.other[j] * std::min(to[j], ti[j]);
+    base.lambert[j] = diffuse[j] > 0 ? w.other[j] * to[j] * ti[j] / diffuse[j] : R(0);
+  });
+}
+
+}  // namespace detail
+
+/// Factors for the pair of directions, for every node.
+template <class R>
+inline void weigh(const Layout& layout, const R* params, R cos_o, R cos_i,
+                  PerNode<NodeWeight<R>>& weights) {
+  const auto nodes = layout.nodes();
+  auto& w = weights.of;
+  w[nodes.size() - 1] = NodeWeight<R>{};
+  for (int i = int(nodes.size()) - 1; i >= 0; --i) {
+    const Layout::Node& node = nodes[i];
+    const R* p = params + node.first_param;
+    const int a = node.children[0], b = node.children[1];
+    switch (node.lobe) {
+      case Lobe::Mix:
+        for (int j = 0; j < kWavelengths; ++j) {
+          const R t = limited(p[j], R(0), R(1));
+          w[a].other[j] = w[i].other[j] * (1 - t);
+          w[a].lambert[j] = w[i].lambert[j] * (1 - t);
+          w[b].other[j] = w[i].other[j] * t;
+          w[b].lambert[j] = w[i].lambert[j] * t;
+        }
+        break;
+      case Lobe::Scale: {
+        const Spectrum<R> t = weight_at(p);
+        w[a] = {w[i].other * t, w[i].lambert * t};
+        break;
+      }
+      case Lobe::Add:
+        w[a] = w[b] = w[i];
+        break;
+      case Lobe::FresnelMix:
+        detail::weigh_fresnel_mix(p, cos_o, cos_i, w[i], w[a], w[b]);
+        break;
+      default:
+        break;  // a lobe
+    }
+  }
+}
+
+/// Factors for choosing a lobe before wi is known: `fresnel_mix` takes F and 1 - F at wo.
+/// 0 only where `weigh` is 0 for every wi.
+template <class R>
+inline void weigh_for_choice(const Layout& layout, const R* params, R cos_o,
+                             PerNode<Spectrum<R>>& weights) {
+  const auto nodes = layout.nodes();
+  auto& w = weights.of;
+  w[nodes.size() - 1] = Spectrum<R>(R(1));
+  for (int i = int(nodes.size()) - 1; i >= 0; --i) {
+    const Layout::Node& node = nodes[i];
+    const R* p = params + node.first_param;
+    const int a = node.children[0], b = node.children[1];
+    switch (node.lobe) {
+      case Lobe::Mix:
+        for (int j = 0; j < kWavelengths; ++j) {
+          const R t = limited(p[j], R(0), R(1));
+          w[a][j] = w[i][j] * (1 - t);
+          w[b][j] = w[i][j] * t;
+        }
+        break;
+      case Lobe::Scale:
+        w[a] = w[i] * weight_at(p);
+        break;
+      case Lobe::Add:
+        w[a] = w[b] = w[i];
+        break;
+      case Lobe::FresnelMix: {
+        Spectrum<R> reflected, transmitted;
+        detail::fresnel_splits(p, cos_o, reflected, transmitted);
+        w[a] = w[i] * transmitted;
+        w[b] = w[i] * reflected;
+        break;
+      }
+      default:
+        break;
+    }
+  }
+}
+
+}  // namespace mms::materials

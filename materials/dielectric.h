@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// `dielectric`: an interface that reflects by Fresnel and refracts the rest, ideal at roughness 0,
+/// else GGX facets (Walter et al. 2007). Each wavelength has its own index, so a rough direction is
+/// looked up with a different half vector for each: that is what the hypothetical pdfs hold.
+
+#include "materials/fresnel.h"
+#include "materials/microfacet.h"
+
+namespace mms::materials {
+
+template <class R>
+struct Dielectric {
+  const R* ior;
+  Ggx<R> ggx;
+  Spectrum<R> reflected, transmitted;
+
+  explicit Dielectric(const R* p)
+      : ior(p),
+        ggx(Ggx<R>::from(p[kWavelengths], R(0))),
+        reflected(weight_at(p + kWavelengths + 1)),
+        transmitted(weight_at(p + 2 * kWavelengths + 1)) {}
+
+  /// Also where refraction bends so little at every wavelength that the transmitted lobe, of width
+  /// about alpha |ior - 1|, is narrower than a float direction resolves (see kMinAlpha).
+  bool specular() const {
+    R bend = 0;
+    for (int j = 0; j < kWavelengths; ++j) {
+      const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
+      bend = std::max(bend, std::abs(eta - 1));
+    }
+    return ggx.specular() || !(ggx.ax * bend >= R(kMinAlpha));
+  }
+
+  Spectrum<R> estimate(Vec3<R> wo) const {
+    const R c = limited(std::abs(wo.z), R(0), R(1));
+    Spectrum<R> e;
+    const bool rough = !specular();
+    for (int j = 0; j < kWavelengths; ++j) {
+      const FresnelSplit<R> s = fresnel_split(c, relative_eta(ior[j], wo));
+      e[j] = s.reflected * reflected[j] + s.transmitted * transmitted[j];
+      // Facets meet the light at other angles than the surface does.
+      if (rough) e[j] = R(0.9) * e[j] + R(0.05) * (reflected[j] + transmitted[j]);
+    }
+    return e;
+  }
+
+  SpecularTerms<R> terms(Vec3<R> wo) const {
+    const R c = limited(std::abs(wo.z), R(0), R(1));
+    SpecularTerms<R> t;
+    for (int j = 0; j < kWavelengths; ++j) {
+      t.eta[j] = relative_eta(ior[j], wo);
+      const FresnelSplit<R> s = fresnel_split(c, t.eta[j]);
+      t.reflect_weight[j] = s.reflected * reflected[j];
+      t.transmit_weight[j] = s.transmitted * transmitted[j];
+      const R sum = t.reflect_weight[j] + t.transmit_weight[j];
+      if (!(sum > 0)) continue;
+      t.reflect_probability[j] = t.reflect_weight[j] / sum;
+      t.transmit_probability[j] = t.transmit_weight[j] / sum;
+    }
+    return t;
+  }
+
+  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode) const {
+    return same_side(wo, wi) ? evaluate_reflection(wo, wi) : evaluate_transmission(wo, wi, mode);
+  }
+
+  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, Vec3<R>& wi) const {
+    const Vec3<R> up = to_upper(wo, wo);
+    const Vec3<R> h = ggx.sample_visible(up, u1, u2);
+    const R c = dot(up, h);
+    if (!(c > 0)) return false;
+    const R eta = rough_eta(0, wo);
+    const Choice choice = choose(0, fresnel_split(std::min(c, R(1)), eta));
+    if (u_lobe < choice.reflect) {
+      wi = normalize(h * (2 * c) - up);
+      if (!(wi.z > 0)) return false;
+    } else {
+      const R g2 = refraction_g2(c, eta);
+      if (!(g2 > 0) || !(choice.transmit > 0)) return false;
+      // -wo / eta + (c - g) / eta h, with c - g = (1 - eta^2) / (c + g)
+      const R shift = (1 - eta) * (1 + eta) / (c + std::sqrt(g2));
+      wi = normalize(h * shift - up);
+      if (!(wi.z < 0)) return false;
+    }
+    wi = to_upper(wi, wo);
+    return true;
+  }
+
+ private:
+  struct Choice {
+    R reflect = 0, transmit = 0;
+  };
+
+  /// Index ratio with the bend kept above what `specular()` resolves; wavelengths of one material
+  /// differ little, so this matters only where a dispersion curve crosses 1.
+  R rough_eta(int j, Vec3<R> wo) const {
+    const R n = relative_eta(ior[j], Vec3<R>{0, 0, 1});
+    const R least = R(kMinAlpha) / ggx.ax;
+    const R bent = std::abs(n - 1) >= least ? n : n < 1 ? 1 - std::min(least, R(0.5)) : 1 + least;
+    return wo.z > 0 ? bent : 1 / bent;
+  }
+
+  /// Probabilities of the two directions at a facet.
+  Choice choose(int j, FresnelSplit<R> s) const {
+    const R r = s.reflected * reflected[j], t = s.transmitted * transmitted[j];
+    const R sum = r + t;
+    if (!(sum > 0)) return {};
+    return {r / sum, t / sum};
+  }
+
+  Lobes<R> evaluate_reflection(Vec3<R> wo, Vec3<R> wi) const {
+    const FacetReflection<R> r = reflect_by_facets(ggx, wo, wi);
+    Lobes<R> out;
+    if (!(r.pdf > 0)) return out;
+    for (int j = 0; j < kWavelengths; ++j) {
+      const FresnelSplit<R> s = fresnel_split(r.cos_h, rough_eta(j, wo));
+      out.f[j] = s.reflected * reflected[j] * r.f;
+      out.pdf[j] = choose(j, s).reflect * r.pdf;
+    }
+    return out;
+  }
+
+  Lobes<R> evaluate_transmission(Vec3<R> wo, Vec3<R> wi, Mode mode) const {
+    Lobes<R> out;
+    const Vec3<R> o = to_upper(wo, wo), i = to_upper(wi, wo);
+    const R masking = ggx.masking(o, i);
+    for (int j = 0; j < kWavelengths; ++j) {
+      const R eta = rough_eta(j, wo);
+      if (j > 0 && ior[j] == ior[j - 1] && reflected[j] == reflected[j - 1] &&
+          transmitted[j] == transmitted[j - 1]) {
+        out.f[j] = out.f[j - 1];
+        out.pdf[j] = out.pdf[j - 1];
+        continue;
+      }
+      // The facet that refracts wo to wi; its length is |wo.h + eta wi.h|.
+      Vec3<R> h = o + i * eta;
+      const R l2 = dot(h, h);
+      if (!(l2 > 0)) continue;
+      const R inv = 1 / std::sqrt(l2);
+      h = h * (h.z < 0 ? -inv : inv);
+      const R oh = dot(o, h), ih = dot(i, h);
+      if (!(oh > 0) || !(ih < 0) || !(h.z > 0)) continue;
+      const FresnelSplit<R> s = fresnel_split(std::min(oh, R(1)), eta);
+      const R jacobian = -ih * inv * inv;
+      const R scale = mode == Mode::Radiance ? R(1) : eta * eta;
+      // masking already holds 1 / (4 |wo.z| |wi.z|).
+      out.f[j] =
+          s.transmitted * transmitted[j] * ggx.density(h) * 4 * masking * oh * jacobian * scale;
+      out.pdf[j] = choose(j, s).transmit * ggx.visible(o, h) * oh * jacobian * eta * eta;
+    }
+    return out;
+  }
+};
+
+}  // namespace mms::materials

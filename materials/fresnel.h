@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Fresnel's equations for unpolarised light, in forms without cancellation, over any real type.
+/// The scattering models and the script library use these same functions. Every function is pure.
+
+#include <algorithm>
+#include <cmath>
+
+namespace mms::materials {
+
+/// Reflected and transmitted fractions of the incident power; each is computed directly.
+template <class R>
+struct FresnelSplit {
+  R reflected, transmitted;
+};
+
+/// g^2 = eta^2 - sin^2 at the cosine of incidence `c`: negative or 0 in total reflection. Of its
+/// two forms, c^2 + (eta^2 - 1) and eta^2 - (1 - c)(1 + c), the one that subtracts less.
+template <class R>
+inline R refraction_g2(R c, R eta) {
+  return c > R(0.7) ? std::fma(eta, eta, -(1 - c) * (1 + c))
+                    : std::fma(c, c, (eta - 1) * (eta + 1));
+}
+
+/// Dielectric of relative index `eta` (far side over near side, > 0) at the cosine of incidence
+/// `c` in [0, 1]. With e = eta^2 - 1, g^2 = c^2 + e: r_s = -e / (c + g)^2,
+/// r_p = e ((eta^2 + 1) c^2 - 1) / (eta^2 c + g)^2; total reflection where g^2 <= 0. At eta = 1
+/// nothing is reflected, not even at c = 0.
+template <class R>
+inline FresnelSplit<R> fresnel_split(R c, R eta) {
+  const R e = (eta - 1) * (eta + 1);
+  if (e == 0) return {R(0), R(1)};
+  const R g2 = refraction_g2(c, eta);
+  if (!(g2 > 0)) return {R(1), R(0)};
+  const R g = std::sqrt(g2), eta2 = eta * eta;
+  const R ds = c + g, dp = std::fma(eta2, c, g);
+  const R is = 1 / (ds * ds), ip = 1 / (dp * dp);
+  const R rs = e * is;
+  const R tilt =
+      c > R(0.7) ? std::fma(eta2, c * c, -(1 - c) * (1 + c)) : std::fma(eta2 + 1, c * c, R(-1));
+  const R rp = e * tilt * ip;
+  return {std::min(R(1), (rs * rs + rp * rp) / 2), std::min(R(1), 2 * c * g * (is + eta2 * ip))};
+}
+
+/// Reflectance of a dielectric, as above.
+template <class R>
+inline R fresnel_dielectric(R c, R eta) {
+  return fresnel_split(c, eta).reflected;
+}
+
+/// 1 - reflectance of a conductor of index n + i k (relative to the near side; n, k >= 0) at the
+/// cosine of incidence `c` in [0, 1]. Lengths are scaled by max(n, k, 1), so k may be 1e25 in
+/// float. With s^2 = 1 - c^2, a + i b = sqrt((n + i k)^2 - s^2), q = a^2 + b^2:
+/// A_s = 4 a c / (q + c^2 + 2 a c),
+/// A_p = 4 a c (q + s^2) / (c^2 (n^2 + k^2)^2 + 2 a c (q + s^2) + q).
+template <class R>
+inline R fresnel_conductor_absorptance(R c, R n, R k) {
+  const R scale = 1 / std::max({n, k, R(1)});
+  const R nn = n * scale, kk = k * scale, cs = c * scale;
+  const R s2 = (1 - c) * (1 + c) * scale * scale;
+  const R t = ((n - 1) * scale) * ((n + 1) * scale) - kk * kk + cs * cs;  // Re(eps) - s^2
+  const R q = std::hypot(t, 2 * nn * kk);
+  const R big = std::sqrt((q + std::abs(t)) / 2);
+  const R a = t >= 0 ? big : big > 0 ? nn * kk / big : R(0);
+  const R ac = a * cs;
+  const R ds = q + cs * cs + 2 * ac;
+  const R as = ds > 0 ? 4 * ac / ds : R(0);
+  const R modulus = nn * nn + kk * kk, p = ac * (q + s2);
+  const R dp = c * c * modulus * modulus + 2 * p + scale * scale * q;
+  const R ap = dp > 0 ? 4 * p / dp : R(0);
+  return std::clamp((as + ap) / 2, R(0), R(1));
+}
+
+/// Reflectance of a conductor, as above; small reflectances (index near 1) are computed directly:
+/// R_s = |eps - 1|^2 / D_s^2, R_p = |eps - 1|^2 |(eps + 1) c^2 - 1|^2 / D_p^2, eps = (n + i k)^2,
+/// with the denominators of A_s and A_p.
+template <class R>
+inline R fresnel_conductor(R c, R n, R k) {
+  const R absorptance = fresnel_conductor_absorptance(c, n, k);
+  if (absorptance < R(0.5) || std::max(n, k) > R(100)) return 1 - absorptance;
+  const R s2 = (1 - c) * (1 + c), t = (n - 1) * (n + 1) - k * k + c * c;
+  const R q = std::hypot(t, 2 * n * k);
+  const R big = std::sqrt((q + std::abs(t)) / 2);
+  const R a = t >= 0 ? big : big > 0 ? n * k / big : R(0);
+  const R ac = a * c, modulus = n * n + k * k;
+  const R ds = q + c * c + 2 * ac;
+  const R dp = c * c * modulus * modulus + 2 * ac * (q + s2) + q;
+  const R re = (n - 1) * (n + 1) - k * k, im = 2 * n * k;
+  const R step = std::hypot(re, im);  // |eps - 1|
+  const R tilt = std::hypot((re + 2) * c * c - 1, im * c * c);
+  if (!(ds > 0) || !(dp > 0)) return 1 - absorptance;
+  const R rs = step / ds, rp = step * tilt / dp;
+  return std::clamp((rs * rs + rp * rp) / 2, R(0), R(1));
+}
+
+/// Reflectance of a dielectric of relative index `eta` for diffuse (Lambertian) light,
+/// 2 int_0^1 F(c) c dc, in closed form (Duntley 1942; Egan and Hilgeman 1973); `eta` > 0.
+/// Computed in double whatever R is: the terms cancel as 1/(eta-1)^2 near 1.
+template <class R>
+inline R fresnel_dielectric_diffuse(R eta) {
+  const double x = double(eta);
+  const double n = x < 1 ? 1 / x : x;
+  if (n < 1 + 1e-5) return R(x < 1 ? 1 - 1 / (n * n) : 0);
+  const double n2 = n * n, n4 = n2 * n2, p = n2 + 1, d = n4 - 1;
+  const double outer = 0.5 + (n - 1) * (3 * n + 1) / (6 * (n + 1) * (n + 1)) +
+                       n2 * (n2 - 1) * (n2 - 1) / (p * p * p) * std::log((n - 1) / (n + 1)) -
+                       2 * n2 * n * (n2 + 2 * n - 1) / (p * d) +
+                       8 * n4 * (n4 + 1) / (p * d * d) * std::log(n);
+  // From the dense side: what enters leaves by the same angles, spread over n^2 less solid angle.
+  return R(x < 1 ? 1 - (1 - outer) / n2 : outer);
+}
+
+}  // namespace mms::materials

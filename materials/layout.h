@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// The static shape of one material: its tree of lobes and combiners, where each one's numbers
+/// are in the flat array the renderer gathers for a lane, and what holds for the whole tree.
+/// Made once for each descriptor; immutable after that and shared by every thread.
+///
+/// The flat array: for each node in the order of the tree (children first), for each
+/// argument that is not a material in the order of the signature, one number for a `real` and
+/// kWavelengths numbers for a `spectrum` (a constant is repeated).
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "materials/table.h"
+#include "vm/program.h"
+
+namespace mms::materials {
+
+/// Trees are limited to this many nodes (ARCHITECTURE.md: at most 64 lobes).
+inline constexpr int kMaxNodes = 64;
+
+class Layout {
+ public:
+  struct Node {
+    Lobe lobe{};
+    std::int32_t first_param = 0;  ///< index into the flat array
+    std::int32_t param_count = 0;  ///< numbers, not arguments
+    std::int32_t child_count = 0;
+    std::int32_t children[2] = {0, 0};  ///< nodes, each before this one
+  };
+
+  /// The empty layout: scatters nothing.
+  Layout() = default;
+
+  /// \pre `material` belongs to a verified program. A tree that breaks the order of children, the
+  /// number of arguments of a row or kMaxNodes gives the empty layout (and an assertion).
+  explicit Layout(const vm::MaterialLayout& material);
+
+  std::span<const Node> nodes() const { return nodes_; }
+  bool empty() const { return nodes_.empty(); }
+  /// Numbers in the flat array.
+  int param_count() const { return param_count_; }
+
+  // What the lobes can do, whatever their numbers. An upper bound: a rough glass has_specular()
+  // because its roughness may be 0 at a point.
+  bool has_specular() const { return has_specular_; }  ///< may hold a delta
+  bool has_smooth() const { return has_smooth_; }      ///< may hold something that is not a delta
+  bool dispersive() const { return dispersive_; }      ///< directions may depend on wavelength
+  bool transmits() const { return transmits_; }
+  bool reflects() const { return reflects_; }
+  bool phase() const { return phase_; }  ///< holds a phase function: for `Phase`, not `Bsdf`
+  /// f(wo, wi) / eta(wi)^2 is symmetric: true of every model here.
+  bool reciprocal() const { return true; }
+
+ private:
+  std::vector<Node> nodes_;
+  int param_count_ = 0;
+  bool has_specular_ = false, has_smooth_ = false, dispersive_ = false;
+  bool transmits_ = false, reflects_ = false, phase_ = false;
+};
+
+}  // namespace mms::materials

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Pearson's chi-square test of samples on the sphere against a density.
+///
+/// Cells are rectangles in (t, phi) around an axis, t = sin(angle / 2), where a solid angle is
+/// 4 t dt dphi. The equator, where densities of surfaces jump, is an edge of cells; each half is
+/// split at the medians of a pilot run, so narrow lobes are resolved as well as wide ones, and the
+/// pilot is not used again. What is not drawn (no sample, or a delta) is one more cell, which
+/// expects 1 - the integral of the density.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+#include "tests/stats/distributions.h"
+#include "tests/stats/quadrature.h"
+#include "tests/stats/random.h"
+
+namespace mms::stats {
+
+struct ChiSquareTest {
+  /// A direction, or nothing.
+  std::function<std::optional<Vec3d>(Random&)> sample;
+  /// Per steradian.
+  std::function<double(Vec3d)> pdf;
+  Vec3d axis{0, 0, 1};  ///< the pole: the density may jump at its equator
+  int count = 100'000;
+  int pilot = 8192;
+  int cells = 64;  ///< in each half; a power of two
+  std::uint64_t seed = 1;
+};
+
+struct ChiSquareResult {
+  double statistic = 0, p_value = 1, mass = 0;
+  int freedom = 0, pooled = 0;
+  int impossible = 0;  ///< samples where the density expects nothing
+  /// Integral of the density not above 1, the p-value above `level`, and at most five impossible
+  /// samples: float directions next to an edge of the support may fall over it.
+  bool passed(double level) const { return mass <= 1 + 1e-3 && impossible <= 5 && p_value > level; }
+  std::string report() const {
+    return "chi2 " + std::to_string(statistic) + " freedom " + std::to_string(freedom) + " p " +
+           std::to_string(p_value) + " mass " + std::to_string(mass) + " impossible " +
+           std::to_string(impossible);
+  }
+};
+
+/// Observed against expected counts: cells that expect fewer than five are pooled, in order of
+/// expectation. Samples in cells that expect (almost) nothing are `impossible`.
+inline ChiSquareResult pearson(std::vector<std::pair<double, double>> expected_observed) {
+  ChiSquareResult r;
+  std::sort(expected_observed.begin(), expected_observed.end());
+  double pool_e = 0, pool_o = 0;
+  const auto add = [&](double e, double o) {
+    r.statistic += (o - e) * (o - e) / e;
+    ++r.freedom;
+  };
+  for (const auto& [e, o] : expected_observed) {
+    if (e < 1e-6 && o > 0) r.impossible += int(o);
+    if (e >= 5 && pool_e == 0) {
+      add(e, o);
+      continue;
+    }
+    pool_e += e;
+    pool_o += o;
+    ++r.pooled;
+    if (pool_e >= 5) {
+      add(pool_e, pool_o);
+      pool_e = pool_o = 0;
+    }
+  }
+  if (pool_e > 0) add(std::max(pool_e, 1e-3), pool_o);
+  r.freedom -= 1;
+  r.p_value = r.freedom > 0 ? chi_square_tail(r.statistic, r.freedom) : 1;
+  return r;
+}
+
+namespace detail {
+
+struct PolarPoint {
+  double t, phi;
+};
+
+inline PolarPoint to_polar(const Frame<double>& frame, Vec3d w) {
+  const Vec3d off = w - frame.n;
+  const Vec3d l = frame.to_local(w);
+  const double phi = std::atan2(l.y, l.x);
+  return {std::min(1.0, length(off) / 2), phi < 0 ? phi + 2 * std::numbers::pi : phi};
+}
+
+inline Vec3d from_polar(const Frame<double>& frame, double t, double phi) {
+  const double c = 1 - 2 * t * t, s = 2 * t * std::sqrt(std::max(0.0, 1 - t * t));
+  return frame.to_world({s * std::cos(phi), s * std::sin(phi), c});
+}
+
+/// Splits `r` at medians of the pilot points, turn by turn along t and phi.
+inline void split(const Rectangle& r, std::vector<PolarPoint>::iterator a,
+                  std::vector<PolarPoint>::iterator b, int cells, bool by_t,
+                  std::vector<Rectangle>& out) {
+  if (cells <= 1 || b - a < 2) {
+    out.push_back(r);
+    return;
+  }
+  const auto mid = a + (b - a) / 2;
+  std::nth_element(a, mid, b, [&](const PolarPoint& p, const PolarPoint& q) {
+    return by_t ? p.t < q.t : p.phi < q.phi;
+  });
+  Rectangle low = r, high = r;
+  (by_t ? low.x1 : low.y1) = (by_t ? high.x0 : high.y0) = by_t ? mid->t : mid->phi;
+  split(low, a, mid, cells / 2, !by_t, out);
+  split(high, mid, b, cells / 2, !by_t, out);
+}
+
+/// Integral of `f(t, phi)` over a cell. Cells of the tail hold a peak at one edge, so both
+/// coordinates run through x = s^4 (35 - 84 s + 70 s^2 - 20 s^3), which crowds the edges, and the
+/// cell is cut into 5 by 5 before the adaptive rule may stop.
+template <class F>
+double integrate_cell(const Rectangle& cell, double tolerance, F&& f) {
+  constexpr int n = 5;
+  const auto crowd = [](double s) { return s * s * s * s * (35 + s * (-84 + s * (70 - s * 20))); };
+  const auto slope = [](double s) { return 140 * std::pow(s * (1 - s), 3); };
+  const double w = cell.x1 - cell.x0, h = cell.y1 - cell.y0;
+  double sum = 0;
+  for (int i = 0; i < n * n; ++i) {
+    const double x = double(i / n) / n, y = double(i % n) / n;
+    sum += integrate_adaptive(
+        [&](double u, double v) {
+          return w * h * slope(u) * slope(v) * f(cell.x0 + w * crowd(u), cell.y0 + h * crowd(v));
+        },
+        {x, x + 1.0 / n, y, y + 1.0 / n}, tolerance / n);
+  }
+  return sum;
+}
+
+}  // namespace detail
+
+inline ChiSquareResult chi_square(const ChiSquareTest& test) {
+  const Frame<double> frame = Frame<double>::around(normalize(test.axis));
+  Random pilot_random(test.seed ^ 0x9170), random(test.seed);
+  std::vector<detail::PolarPoint> pilot;
+  for (int i = 0; i < test.pilot; ++i)
+    if (const auto w = test.sample(pilot_random)) pilot.push_back(detail::to_polar(frame, *w));
+  std::vector<Rectangle> cells;
+  const double equator = std::numbers::sqrt2 / 2, round = 2 * std::numbers::pi;
+  const auto below = std::partition(pilot.begin(), pilot.end(),
+                                    [&](const detail::PolarPoint& p) { return p.t < equator; });
+  detail::split({0, equator, 0, round}, pilot.begin(), below, test.cells, true, cells);
+  detail::split({equator, 1, 0, round}, below, pilot.end(), test.cells, true, cells);
+
+  std::vector<double> observed(cells.size() + 1, 0.0);
+  for (int i = 0; i < test.count; ++i) {
+    const auto w = test.sample(random);
+    std::size_t cell = cells.size();
+    if (w) {
+      const auto p = detail::to_polar(frame, *w);
+      for (cell = 0; cell + 1 < cells.size(); ++cell) {
+        const Rectangle& r = cells[cell];
+        if (p.t >= r.x0 && p.t <= r.x1 && p.phi >= r.y0 && p.phi <= r.y1) break;
+      }
+    }
+    observed[cell] += 1;
+  }
+
+  std::vector<std::pair<double, double>> pairs;
+  double mass = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    // A tenth of a cell's own standard deviation would shift the statistic by 1% of its spread.
+    const double tolerance = 0.02 * std::sqrt(1.0 / (double(cells.size()) * test.count));
+    const double p = detail::integrate_cell(cells[i], tolerance, [&](double t, double phi) {
+      return 4 * t * test.pdf(detail::from_polar(frame, t, phi));
+    });
+    mass += p;
+    pairs.emplace_back(p * test.count, observed[i]);
+  }
+  if (1 - mass > 1e-4 || observed.back() > 0)
+    pairs.emplace_back(std::max(0.0, 1 - mass) * test.count, observed.back());
+  ChiSquareResult r = pearson(std::move(pairs));
+  r.mass = mass;
+  return r;
+}
+
+}  // namespace mms::stats

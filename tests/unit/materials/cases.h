@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// The materials and directions that the statistical tests sweep.
+
+#include <string>
+#include <vector>
+
+#include "tests/unit/materials/make.h"
+
+namespace mms::test {
+
+struct Case {
+  std::string name;
+  Material material;
+  double lossless = 0;  ///< 1 for models whose albedo is exactly 1 by theory
+};
+
+/// A different value at each wavelength, from `first` to `last`.
+inline Spectrum<double> ramp(double first, double last) {
+  Spectrum<double> s;
+  for (int j = 0; j < kWavelengths; ++j) s[j] = first + (last - first) * j / (kWavelengths - 1);
+  return s;
+}
+
+inline std::vector<Case> smooth_cases() {
+  std::vector<Case> c;
+  const auto put = [&](const char* name, Material m, double lossless = 0) {
+    c.push_back({name, std::move(m), lossless});
+  };
+  put("matte", matte(1), 1);
+  put("translucent", translucent(ramp(0.2, 0.9)));
+  for (double gloss : {0.0, 0.5, 4.0, 40.0, 1000.0}) put("glossy", glossy(1, gloss), 1);
+  put("microfacet 0.1", microfacet(1, 0.1));
+  put("microfacet 0.5", microfacet(ramp(0.3, 0.8), 0.5));
+  put("microfacet 1", microfacet(1, 1));
+  put("microfacet anisotropic", microfacet(1, 0.5, 0.8));
+  put("microfacet anisotropic across", microfacet(1, 0.4, -0.5));
+  put("conductor", conductor(ramp(0.2, 1.3), ramp(3.4, 2.1), 0.3));
+  put("dielectric 1.5, 0.3", dielectric(1.5, 0.3));
+  put("dielectric dispersive, 0.5", dielectric(ramp(1.6, 1.4), 0.5));
+  put("dielectric 1.1, 0.8", dielectric(1.1, 0.8));
+  put("dielectric 2.5, 0.6, tinted", dielectric(2.5, 0.6, 0.5, ramp(0.2, 0.8)));
+  put("mix", mix(matte(ramp(0.1, 0.9)), glossy(1, 20), ramp(0.2, 0.7)));
+  put("coat", fresnel_mix(matte(0.8), glossy(1, 40), ramp(1.6, 1.4)));
+  put("coat of mirror", fresnel_mix(matte(0.8), mirror(1), 1.5));
+  put("nested", add(scale(fresnel_mix(mix(matte(0.5), translucent(ramp(0.1, 0.5)), 0.4),
+                                      microfacet(1, 0.4), 1.8),
+                          ramp(1, 0.5)),
+                    scale(mirror(1), 0.1)));
+  return c;
+}
+
+/// Degrees from the normal, both sides.
+inline constexpr double kDegrees[] = {0, 30, 60, 85, 89.99, 180, 140, 105, 93, 90.01};
+
+}  // namespace mms::test

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Extreme numbers and directions in float: nothing is NaN, infinite or negative.
+#include <doctest/doctest.h>
+
+#include <cfloat>
+#include <cmath>
+
+#include "tests/stats/random.h"
+#include "tests/unit/materials/cases.h"
+
+using namespace mms;
+using namespace mms::test;
+using materials::Bsdf;
+using materials::Mode;
+
+namespace {
+
+bool sane(const Spectrumf& s) {
+  for (float x : s.v)
+    if (!(x >= 0) || std::isinf(x)) return false;
+  return true;
+}
+
+std::vector<Vec3<float>> hard_directions() {
+  std::vector<Vec3<float>> d;
+  for (double degrees :
+       {0.0, 1e-5, 0.01, 45.0, 80.0, 89.99, 89.99999, 90.0, 90.00001, 90.01, 135.0, 179.99, 180.0})
+    for (double phi : {0.0, 0.7, 3.14159265358979 + 0.7}) d.emplace_back(direction(degrees, phi));
+  for (float z : {FLT_MIN, 1e-20f, 1e-42f, -1e-20f, -1e-42f}) d.push_back({0.6f, 0.8f, z});
+  return d;
+}
+
+std::vector<Material> extreme_materials() {
+  std::vector<Material> m;
+  for (double r : {0.0, 1e-30, 1e-4, 0.00999, 0.01001, 0.03, 0.1, 0.9, 1.0, 7.0}) {
+    m.push_back(microfacet(1, r));
+    m.push_back(microfacet(1, r, 1));
+    m.push_back(microfacet(1, r, -1));
+    m.push_back(conductor(ramp(0.05, 3), ramp(0, 8), r));
+    for (double ior : {1 + 1e-7, 1 - 1e-7, 1.0, 1.001, 1.5, 4.0, 0.25, 1e-9, 1e20})
+      m.push_back(dielectric(ior, r));
+    m.push_back(dielectric(ramp(0.9, 1.1), r));
+  }
+  for (double g = 1e-12; g < 1e12; g *= 30) m.push_back(glossy(1, g));
+  for (double k : {0.0, 1e-20, 1e5, 1e20, 1e25}) m.push_back(conductor(1, k, 0.3));
+  for (double bad : {std::nan(""), -1.0, double(INFINITY)}) {
+    m.push_back(matte(bad));
+    m.push_back(glossy(0.5, bad));
+    m.push_back(microfacet(0.5, bad, bad));
+    m.push_back(dielectric(bad, 0.2));
+    m.push_back(dielectric(1.5, bad));
+    m.push_back(mix(matte(0.2), mirror(0.5), bad));
+    if (!std::isinf(bad)) m.push_back(scale(matte(0.2), bad));
+  }
+  m.push_back(refraction(1 + 1e-7));
+  m.push_back(fresnel_mix(matte(1), glossy(1, 1e6), 1 + 1e-7));
+  m.push_back(fresnel_mix(matte(1), glossy(1, 30), 1));
+  m.push_back(fresnel_mix(dielectric(1.5, 0.2), microfacet(1, 0.2), 0.7));
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("extreme numbers and directions stay finite and non-negative") {
+  const auto directions = hard_directions();
+  int index = 0;
+  for (const Material& m : extreme_materials()) {
+    const materials::Layout layout = m.layout();
+    const auto p = m.params<float>();
+    const Bsdf<float> bsdf(layout, p.data());
+    stats::Random random(++index);
+    const int lobe = m.tree.nodes.back().lobe;
+    const double first = m.numbers.front(), last = m.numbers.back();
+    for (const auto& wo : directions) {
+      for (const auto& wi : directions) {
+        const auto l = bsdf.evaluate(wo, wi, Mode::Radiance);
+        CHECK_MESSAGE((sane(l.f) && sane(l.pdf)), lobe, " ", first, " ", last, " wo ", wo.z, " wi ",
+                      wi.z, " f ", l.f[0], " pdf ", l.pdf[0]);
+      }
+      for (int i = 0; i < 20; ++i) {
+        const float corner[] = {0, 1 - 0x1p-24f, random.next_float(), random.next_float()};
+        const float u = corner[i % 4], u1 = corner[(i / 2) % 4], u2 = corner[(i / 4) % 4];
+        const auto s = bsdf.sample(wo, u, u1, u2, Mode::Radiance);
+        if (!s) continue;
+        CHECK_MESSAGE((sane(s->f) && sane(s->pdf) && s->pdf[0] > 0), lobe, " ", first, " ", last,
+                      " wo ", wo.z, " wi ", s->wi.z, " f ", s->f[0], " pdf ", s->pdf[0]);
+        const float off = std::abs(length(s->wi) - 1);
+        CHECK_MESSAGE(off < 1e-5f, lobe, " ", first, " ", last, " wo ", wo.z, " ", s->wi.z);
+      }
+    }
+  }
+}
+
+TEST_CASE("roughness and gloss hand over to the mirror") {
+  for (const Material& m : {glossy(0.5, 6e4), microfacet(0.5, 0.009), microfacet(0.5, 0)}) {
+    const materials::Layout layout = m.layout();
+    const auto p = m.params<float>();
+    const Bsdf<float> bsdf(layout, p.data());
+    CHECK(bsdf.specular_only());
+    const auto s = bsdf.sample(Vec3<float>(direction(50, 0)), 0.5f, 0.2f, 0.3f, Mode::Radiance);
+    REQUIRE(s);
+    CHECK(s->specular);
+    CHECK(s->f[0] * s->wi.z / s->pdf[0] == doctest::Approx(0.5));
+  }
+}
+
+TEST_CASE("no lobe, nothing scattered") {
+  const materials::Layout layout;
+  const Bsdf<float> bsdf(layout, nullptr);
+  const Vec3<float> w{0, 0, 1};
+  CHECK(bsdf.eval(w, w, Mode::Radiance).is_black());
+  CHECK(!bsdf.sample(w, 0.5f, 0.5f, 0.5f, Mode::Radiance));
+  const Material black = matte(0);
+  const materials::Layout l = black.layout();
+  const auto p = black.params<float>();
+  CHECK(!Bsdf<float>(l, p.data()).sample(w, 0.5f, 0.5f, 0.5f, Mode::Radiance));
+}

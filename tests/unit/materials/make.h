@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Materials for tests, written as expressions: a layout and its flat array of numbers.
+
+#include <vector>
+
+#include "materials/bsdf.h"
+#include "materials/layout.h"
+
+namespace mms::test {
+
+using materials::Lobe;
+
+struct Material {
+  vm::MaterialLayout tree;
+  std::vector<double> numbers;
+
+  materials::Layout layout() const { return materials::Layout(tree); }
+  template <class R>
+  std::vector<R> params() const {
+    return std::vector<R>(numbers.begin(), numbers.end());
+  }
+};
+
+/// A spectrum argument: a number, or one for each wavelength.
+struct Value {
+  Spectrum<double> s;
+  Value(double x) : s(x) {}
+  Value(const Spectrum<double>& x) : s(x) {}
+};
+
+inline void append(Material& m, const Material& child) {
+  const auto shift = static_cast<std::uint32_t>(m.tree.nodes.size());
+  for (vm::LayoutNode node : child.tree.nodes) {
+    for (auto& c : node.children) c += shift;
+    m.tree.nodes.push_back(node);
+  }
+  m.numbers.insert(m.numbers.end(), child.numbers.begin(), child.numbers.end());
+}
+
+/// `spectra` then `reals` must be the formal order of the lobe but for Dielectric, see below.
+inline Material node(Lobe lobe, std::vector<Material> children, std::vector<Value> spectra,
+                     std::vector<double> reals = {}) {
+  Material m;
+  vm::LayoutNode n;
+  n.lobe = static_cast<int>(lobe);
+  for (const Material& child : children) {
+    append(m, child);
+    n.children.push_back(static_cast<std::uint32_t>(m.tree.nodes.size() - 1));
+  }
+  n.params.resize(spectra.size() + reals.size());
+  for (const Value& v : spectra) m.numbers.insert(m.numbers.end(), v.s.v.begin(), v.s.v.end());
+  m.numbers.insert(m.numbers.end(), reals.begin(), reals.end());
+  m.tree.nodes.push_back(n);
+  return m;
+}
+
+inline Material matte(Value c) { return node(Lobe::Matte, {}, {c}); }
+inline Material translucent(Value c) { return node(Lobe::Translucent, {}, {c}); }
+inline Material glossy(Value c, double gloss) { return node(Lobe::Glossy, {}, {c}, {gloss}); }
+inline Material microfacet(Value c, double roughness, double anisotropy = 0) {
+  return node(Lobe::Microfacet, {}, {c}, {roughness, anisotropy});
+}
+inline Material conductor(Value n, Value k, double roughness = 0, double anisotropy = 0) {
+  return node(Lobe::Conductor, {}, {n, k}, {roughness, anisotropy});
+}
+inline Material mirror(Value c) { return node(Lobe::Mirror, {}, {c}); }
+inline Material refraction(Value ior, Value c = 1) { return node(Lobe::Refraction, {}, {ior, c}); }
+inline Material dielectric(Value ior, double roughness = 0, Value r = 1, Value t = 1) {
+  Material m = node(Lobe::Dielectric, {}, {ior}, {roughness});
+  m.tree.nodes.back().params.resize(4);
+  m.numbers.insert(m.numbers.end(), r.s.v.begin(), r.s.v.end());
+  m.numbers.insert(m.numbers.end(), t.s.v.begin(), t.s.v.end());
+  return m;
+}
+inline Material isotropic() { return node(Lobe::Isotropic, {}, {}); }
+inline Material henyey_greenstein(double g) { return node(Lobe::HenyeyGreenstein, {}, {}, {g}); }
+inline Material mix(Material a, Material b, Value t) { return node(Lobe::Mix, {a, b}, {t}); }
+inline Material fresnel_mix(Material base, Material coat, Value ior) {
+  return node(Lobe::FresnelMix, {base, coat}, {ior});
+}
+inline Material scale(Material a, Value t) { return node(Lobe::Scale, {a}, {t}); }
+inline Material add(Material a, Material b) { return node(Lobe::Add, {a, b}, {}); }
+
+/// Direction `degrees` from +z (above 90: inside), at azimuth `phi` in radians.
+inline Vec3d direction(double degrees, double phi) {
+  const double a = degrees * kPi<double> / 180;
+  return {std::sin(a) * std::cos(phi), std::sin(a) * std::sin(phi), std::cos(a)};
+}
+
+/// The same material with wavelengths rotated so that wavelength `j` is the hero.
+inline Material with_hero(const Material& m, int j) {
+  Material r = m;
+  std::size_t at = 0;
+  for (const vm::LayoutNode& n : m.tree.nodes) {
+    const auto& f = materials::formals(static_cast<Lobe>(n.lobe));
+    for (int i = 0; i < f.count; ++i) {
+      if (f.kinds[i] == 's') {
+        for (int k = 0; k < kWavelengths; ++k)
+          r.numbers[at + k] = m.numbers[at + (k + j) % kWavelengths];
+        at += kWavelengths;
+      } else if (f.kinds[i] == 'r') {
+        ++at;
+      }
+    }
+  }
+  return r;
+}
+
+}  // namespace mms::test

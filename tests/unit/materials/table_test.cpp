@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of lobes and what a Layout makes of it.
+#include <doctest/doctest.h>
+
+#include "tests/unit/materials/make.h"
+
+using namespace mms;
+using namespace mms::test;
+using materials::Layout;
+
+TEST_CASE("rows are complete and in order") {
+  const auto rows = materials::rows();
+  REQUIRE(int(rows.size()) == materials::kLobeCount);
+  for (int i = 0; i < int(rows.size()); ++i) {
+    CHECK(rows[i].lobe == i);
+    CHECK(rows[i].signature.starts_with("material "));
+    CHECK(rows[i].module == "materials");
+    CHECK(rows[i].doc.ends_with("."));
+    CHECK(!rows[i].example.empty());
+    CHECK((rows[i].f32 == nullptr));
+    const unsigned t = materials::traits(Lobe(i));
+    const auto& f = materials::formals(Lobe(i));
+    const bool takes_material =
+        std::string_view(f.kinds, f.count).find('m') != std::string_view::npos;
+    CHECK(takes_material == ((t & materials::Combiner) != 0));
+  }
+}
+
+TEST_CASE("formals are read off the signature") {
+  const auto kinds = [](Lobe l) {
+    const auto& f = materials::formals(l);
+    return std::string(f.kinds, f.count);
+  };
+  CHECK(kinds(Lobe::Conductor) == "ssrr");
+  CHECK(kinds(Lobe::Dielectric) == "srss");
+  CHECK(kinds(Lobe::Mix) == "mms");
+  CHECK(kinds(Lobe::Isotropic) == "");
+  CHECK(kinds(Lobe::Scale) == "ms");
+  CHECK(kinds(Lobe::Glossy) == "sr");
+}
+
+TEST_CASE("layout offsets and flags") {
+  const Material m = mix(glossy(0.5, 30), dielectric(1.5, 0.2), 0.25);
+  const Layout l = m.layout();
+  REQUIRE(l.nodes().size() == 3);
+  CHECK(l.nodes()[0].first_param == 0);
+  CHECK(l.nodes()[1].first_param == kWavelengths + 1);
+  CHECK(l.nodes()[2].first_param == 4 * kWavelengths + 2);
+  CHECK(l.param_count() == 5 * kWavelengths + 2);
+  CHECK(l.param_count() == int(m.numbers.size()));
+  CHECK(l.nodes()[2].children[1] == 1);
+  CHECK(l.has_specular());
+  CHECK(l.has_smooth());
+  CHECK(l.dispersive());
+  CHECK(l.transmits());
+  CHECK(l.reflects());
+  CHECK(!l.phase());
+
+  const Layout plain = matte(0.5).layout();
+  CHECK(!plain.has_specular());
+  CHECK(!plain.transmits());
+  CHECK(!plain.dispersive());
+  const Layout polished = mirror(1).layout();
+  CHECK(!polished.has_smooth());
+  CHECK(Layout().empty());
+}
