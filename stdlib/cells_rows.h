@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// Included once for each instruction set; see core.h.
+#pragma once
+
+/// \file
+/// The rows of white and cellular noise.
+
+#include "stdlib/cells.h"
+#include "vm/builtin.h"
+
+namespace mms::stdlib::MMS_ISA {
+
+inline constexpr vm::Builtin kCellsRows[] = {
+    vm::builtin<Hash1>(
+        {.signature = "real hash(real x)",
+         .module = "noise",
+         .doc = "White noise in [0, 1): another number for every argument. -0 counts as 0.",
+         .example = "hash(0.3)",
+         .derivative = "0",
+         .cost = 3}),
+    vm::builtin<Hash2>(
+        {.signature = "real hash(real[2] p)",
+         .module = "noise",
+         .doc = "White noise in [0, 1): another number for every argument. -0 counts as 0.",
+         .example = "hash([0.3, 0.7])",
+         .derivative = "[0, 0]",
+         .cost = 5}),
+    vm::builtin<Hash3>(
+        {.signature = "real hash(real[3] p)",
+         .module = "noise",
+         .doc = "White noise in [0, 1): another number for every argument. -0 counts as 0.",
+         .example = "hash([0.3, 0.7, 1.9])",
+         .derivative = "[0, 0, 0]",
+         .cost = 7}),
+    vm::builtin<Hash4>(
+        {.signature = "real hash(real[4] p)",
+         .module = "noise",
+         .doc = "White noise in [0, 1): another number for every argument. -0 counts as 0.",
+         .example = "hash([0.3, 0.7, 1.9, 2.2])",
+         .derivative = "[0, 0, 0, 0]",
+         .cost = 9}),
+    vm::builtin<Cells1>(
+        {.signature = "real cellnoise(real x)",
+         .module = "noise",
+         .doc =
+             "A number in [0, 1) for each unit cell: constant where floor of every coordinate is.",
+         .example = "cellnoise(0.3)",
+         .derivative = "0",
+         .cost = 4}),
+    vm::builtin<Cells2>(
+        {.signature = "real cellnoise(real[2] p)",
+         .module = "noise",
+         .doc =
+             "A number in [0, 1) for each unit cell: constant where floor of every coordinate is.",
+         .example = "cellnoise([0.3, 0.7])",
+         .derivative = "[0, 0]",
+         .cost = 7}),
+    vm::builtin<Cells3>(
+        {.signature = "real cellnoise(real[3] p)",
+         .module = "noise",
+         .doc =
+             "A number in [0, 1) for each unit cell: constant where floor of every coordinate is.",
+         .example = "cellnoise([0.3, 0.7, 1.9])",
+         .derivative = "[0, 0, 0]",
+         .cost = 10}),
+    vm::builtin<Cells4>(
+        {.signature = "real cellnoise(real[4] p)",
+         .module = "noise",
+         .doc =
+             "A number in [0, 1) for each unit cell: constant where floor of every coordinate is.",
+         .example = "cellnoise([0.3, 0.7, 1.9, 2.2])",
+         .derivative = "[0, 0, 0, 0]",
+         .cost = 15}),
+    vm::builtin<Worley2>({.signature = "real worley(real[2] p)",
+                          .module = "noise",
+                          .doc = "Distance to the nearest of random points, one in each unit cell. "
+                                 "The 9 cells around are searched: where all of them leave a gap "
+                                 "(rare), a farther point could have been nearer.",
+                          .example = "worley([0.3, 0.7])",
+                          .derivative = "worley_gradient(p)",
+                          .cost = 75}),
+    vm::builtin<WorleyPair2>(
+        {.signature = "real[2] worley_pair(real[2] p)",
+         .module = "noise",
+         .doc = "Distances to the nearest and to the second nearest point of `worley`.",
+         .example = "worley_pair([0.3, 0.7])",
+         .derivative = "",
+         .cost = 160}),
+    vm::builtin<WorleyGradient2>({.signature = "real[2] worley_gradient(real[2] p)",
+                                  .module = "noise",
+                                  .doc = "Gradient of `worley`: the unit vector away from the "
+                                         "nearest point; 0 at the point itself.",
+                                  .example = "worley_gradient([0.3, 0.7])",
+                                  .derivative = "",
+                                  .cost = 85}),
+    vm::builtin<Voronoi2>(
+        {.signature = "real voronoi(real[2] p)",
+         .module = "noise",
+         .doc = "A number in [0, 1) for each Voronoi cell of the points of `worley`.",
+         .example = "voronoi([0.3, 0.7])",
+         .derivative = "[0, 0]",
+         .cost = 90}),
+    vm::builtin<Worley3>({.signature = "real worley(real[3] p)",
+                          .module = "noise",
+                          .doc = "Distance to the nearest of random points, one in each unit cell. "
+                                 "The 27 cells around are searched: where all of them leave a gap "
+                                 "(rare), a farther point could have been nearer.",
+                          .example = "worley([0.3, 0.7, 1.9])",
+                          .derivative = "worley_gradient(p)",
+                          .cost = 310}),
+    vm::builtin<WorleyPair3>(
+        {.signature = "real[2] worley_pair(real[3] p)",
+         .module = "noise",
+         .doc = "Distances to the nearest and to the second nearest point of `worley`.",
+         .example = "worley_pair([0.3, 0.7, 1.9])",
+         .derivative = "",
+         .cost = 590}),
+    vm::builtin<WorleyGradient3>({.signature = "real[3] worley_gradient(real[3] p)",
+                                  .module = "noise",
+                                  .doc = "Gradient of `worley`: the unit vector away from the "
+                                         "nearest point; 0 at the point itself.",
+                                  .example = "worley_gradient([0.3, 0.7, 1.9])",
+                                  .derivative = "",
+                                  .cost = 390}),
+    vm::builtin<Voronoi3>(
+        {.signature = "real voronoi(real[3] p)",
+         .module = "noise",
+         .doc = "A number in [0, 1) for each Voronoi cell of the points of `worley`.",
+         .example = "voronoi([0.3, 0.7, 1.9])",
+         .derivative = "[0, 0, 0]",
+         .cost = 370}),
+};
+
+}  // namespace mms::stdlib::MMS_ISA

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// Included once for each instruction set; see core.h.
+#pragma once
+
+/// \file
+/// Complex functions: principal branches, signed zeros as C99 Annex G. Float bodies compute in
+/// double with the functions of core.h; double bodies call libm.
+
+#include "stdlib/core.h"
+
+namespace mms::stdlib::MMS_ISA {
+
+/// A complex number while it is computed with.
+struct Complex {
+  double re, im;
+};
+MMS_INLINE Complex operator*(Complex a, Complex b) {
+  return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+}
+/// i z and -i z: quarter turns, which only move and flip parts.
+MMS_INLINE Complex turned_left(Complex z) { return {-z.im, z.re}; }
+MMS_INLINE Complex turned_right(Complex z) { return {z.im, -z.re}; }
+
+template <class R>
+MMS_INLINE std::array<R, 2> pair(Complex z) {
+  return {R(z.re), R(z.im)};
+}
+/// libm's complex numbers, and back.
+__extension__ typedef _Complex double LibmComplex;
+MMS_INLINE LibmComplex libm(Complex z) {
+  LibmComplex r;
+  __real__ r = z.re;
+  __imag__ r = z.im;
+  return r;
+}
+MMS_INLINE Complex of_libm(LibmComplex z) { return {__real__ z, __imag__ z}; }
+
+/// A product in which a zero stays zero whatever the other factor: sin(0) e^inf.
+MMS_INLINE double damped(double zero, double x) { return zero == 0 ? zero : zero * x; }
+
+MMS_INLINE SinCos signed_sin_cos(double x) {
+  const SinCos s = sin_cos(x);
+  return {x == 0 ? x : s.sin, s.cos};
+}
+
+MMS_INLINE Complex exp_complex(Complex z) {
+  const double m = exp_core(z.re);
+  const SinCos a = signed_sin_cos(z.im);
+  return {m * a.cos, damped(a.sin, m)};
+}
+
+/// log |z| is taken from |z|^2 - 1, of which every term is exact in double where z is float.
+MMS_INLINE Complex log_complex(Complex z) {
+  const double x = magnitude(z.re), y = magnitude(z.im);
+  const double large = x > y ? x : y, small = x > y ? y : x;
+  const double near_one = fused(large - 1, large + 1, small * small);
+  const bool close = (large > 0.5) & (large < 2);
+  const double far = log_core(large * large + small * small);
+  const double modulus = 0.5 * (close ? log1p_core(near_one) : far);
+  const bool infinite = (x == kInf<double>) | (y == kInf<double>);
+  return {infinite ? kInf<double> : modulus, atan2_core(z.im, z.re)};
+}
+
+MMS_INLINE Complex sqrt_complex(Complex z) {
+  const double x = magnitude(z.re), y = magnitude(z.im);
+  const double m = root(0.5 * (x + root(x * x + y * y)));
+  const double n = m > 0 ? 0.5 * y / m : 0.0;
+  const bool right = with_sign(1.0, z.re) > 0;
+  const Complex r = {right ? m : n, with_sign(right ? n : m, z.im)};
+  // C99: an infinite imaginary part wins over everything, then an infinite real part.
+  const Complex real_infinite = {right    ? kInf<double>
+                                 : y == y ? 0.0
+                                          : kNan<double>,
+                                 with_sign(right ? (y == y ? 0.0 : y) : kInf<double>, z.im)};
+  const bool wide = y == kInf<double>, long_ = x == kInf<double>;
+  return {wide    ? kInf<double>
+          : long_ ? real_infinite.re
+                  : r.re,
+          wide    ? z.im
+          : long_ ? real_infinite.im
+                  : r.im};
+}
+
+MMS_INLINE Complex sinh_complex(Complex z) {
+  const SinhCosh h = sinh_cosh(z.re);
+  const SinCos a = signed_sin_cos(z.im);
+  return {h.sinh * a.cos, damped(a.sin, h.cosh)};
+}
+MMS_INLINE Complex cosh_complex(Complex z) {
+  const SinhCosh h = sinh_cosh(z.re);
+  const SinCos a = signed_sin_cos(z.im);
+  return {h.cosh * a.cos, a.sin == 0 ? with_sign(0.0, h.sinh) * a.sin : h.sinh * a.sin};
+}
+/// (sinh x cosh x + i sin y cos y) / (sinh^2 x + cos^2 y). Beyond 60 the imaginary part is below
+/// the least float.
+MMS_INLINE Complex tanh_complex(Complex z) {
+  const double x = z.re > 60 ? 60 : z.re < -60 ? -60 : z.re;
+  const SinhCosh h = sinh_cosh(x);
+  const SinCos a = signed_sin_cos(z.im);
+  const double d = h.sinh * h.sinh + a.cos * a.cos;
+  return {h.sinh * h.cosh / d, a.sin * a.cos / d};
+}
+
+/// 0^w is 1 for w = 0, else 0 where Re w > 0 and infinite where Re w < 0; z^0 is 1.
+MMS_INLINE Complex pow_complex(Complex z, Complex w) {
+  const bool zero = (z.re == 0) & (z.im == 0), one = (w.re == 0) & (w.im == 0);
+  const Complex l = log_complex({zero ? 1.0 : z.re, zero ? 0.0 : z.im});
+  const Complex r = exp_complex(w * l);
+  const double of_zero = w.re > 0 ? 0.0 : w.re < 0 ? kInf<double> : kNan<double>;
+  return {one ? 1.0 : zero ? of_zero : r.re, one | zero ? 0.0 : r.im};
+}
+
+// MMS_COMPLEX(Name, float body, double body): a kernel of one complex number.
+#define MMS_COMPLEX(Name, float_body, double_body)                    \
+  template <class R>                                                  \
+  struct Name {                                                       \
+    [[gnu::always_inline]] static std::array<R, 2> eval(R re, R im) { \
+      const Complex z = {re, im};                                     \
+      if constexpr (kDouble<R>)                                       \
+        return pair<R>(double_body);                                  \
+      else                                                            \
+        return pair<R>(float_body);                                   \
+    }                                                                 \
+  };
+MMS_COMPLEX(ComplexExp, exp_complex(z), of_libm(__builtin_cexp(libm(z))))
+MMS_COMPLEX(ComplexLog, log_complex(z), of_libm(__builtin_clog(libm(z))))
+MMS_COMPLEX(ComplexSqrt, sqrt_complex(z), of_libm(__builtin_csqrt(libm(z))))
+MMS_COMPLEX(ComplexSin, turned_right(sinh_complex(turned_left(z))),
+            of_libm(__builtin_csin(libm(z))))
+MMS_COMPLEX(ComplexCos, cosh_complex(turned_left(z)), of_libm(__builtin_ccos(libm(z))))
+MMS_COMPLEX(ComplexTan, turned_right(tanh_complex(turned_left(z))),
+            of_libm(__builtin_ctan(libm(z))))
+MMS_COMPLEX(ComplexSinh, sinh_complex(z), of_libm(__builtin_csinh(libm(z))))
+MMS_COMPLEX(ComplexCosh, cosh_complex(z), of_libm(__builtin_ccosh(libm(z))))
+MMS_COMPLEX(ComplexTanh, tanh_complex(z), of_libm(__builtin_ctanh(libm(z))))
+MMS_COMPLEX(Conj, (Complex{z.re, -z.im}), (Complex{z.re, -z.im}))
+#undef MMS_COMPLEX
+
+template <class R>
+struct ComplexPow {
+  [[gnu::always_inline]] static std::array<R, 2> eval(R zr, R zi, R wr, R wi) {
+    const Complex z = {zr, zi}, w = {wr, wi};
+    if constexpr (kDouble<R>) {
+      const bool edge = ((z.re == 0) & (z.im == 0)) | ((w.re == 0) & (w.im == 0));
+      return pair<R>(edge ? pow_complex(z, w) : of_libm(__builtin_cpow(libm(z), libm(w))));
+    }
+    return pair<R>(pow_complex(z, w));
+  }
+};
+
+/// z^n by repeated squaring in double, as PowI.
+template <class R>
+struct ComplexPowI {
+  [[gnu::always_inline]] static std::array<R, 2> eval(R re, R im, std::int32_t n) {
+    const std::uint32_t m = n < 0 ? 0u - std::uint32_t(n) : std::uint32_t(n);
+    Complex base = {re, im}, r = {1, 0};
+#pragma GCC unroll 32
+    for (int k = 0; k < 32; ++k) {
+      const Complex next = r * base;
+      const bool use = (m >> k) & 1;
+      r = {use ? next.re : r.re, use ? next.im : r.im};
+      base = base * base;
+    }
+    const double squared = r.re * r.re + r.im * r.im;
+    return pair<R>({n < 0 ? r.re / squared : r.re, n < 0 ? -r.im / squared : r.im});
+  }
+};
+
+template <class R>
+struct ComplexAbs {
+  [[gnu::always_inline]] static R eval(R re, R im) {
+    if constexpr (kDouble<R>) return __builtin_hypot(re, im);
+    const double x = magnitude(re), y = magnitude(im);
+    const bool infinite = (x == kInf<double>) | (y == kInf<double>);
+    return R(infinite ? kInf<double> : root(x * x + y * y));
+  }
+};
+template <class R>
+struct Arg {
+  [[gnu::always_inline]] static R eval(R re, R im) {
+    if constexpr (kDouble<R>) return __builtin_atan2(im, re);
+    return R(atan2_core(im, re));
+  }
+};
+template <class R>
+struct Re {
+  [[gnu::always_inline]] static R eval(R re, R) { return re; }
+};
+template <class R>
+struct Im {
+  [[gnu::always_inline]] static R eval(R, R im) { return im; }
+};
+template <class R>
+struct Polar {
+  [[gnu::always_inline]] static std::array<R, 2> eval(R r, R phi) {
+    if constexpr (kDouble<R>) return {r * __builtin_cos(phi), r * __builtin_sin(phi)};
+    const SinCos a = signed_sin_cos(phi);
+    return {R(r * a.cos), R(r * a.sin)};
+  }
+};
+
+}  // namespace mms::stdlib::MMS_ISA

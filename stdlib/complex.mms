@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Complex numbers, as far as the language itself can say them.
+
+/// a / b, which the operator `/` calls: Smith's division, so that nothing overflows on the way that
+/// does not in the end.
+complex complex_divide(complex a, b)
+    wide  = abs(b.re) >= abs(b.im);
+    large = select b.re, if wide; b.im otherwise end;
+    small = select b.im, if wide; b.re otherwise end;
+    ratio = small / large;
+    scale = large + small * ratio;
+    re    = select a.re + a.im * ratio, if wide; a.re * ratio + a.im otherwise end;
+    im    = select a.im - a.re * ratio, if wide; a.im * ratio - a.re otherwise end;
+    return complex(re / scale, im / scale);
