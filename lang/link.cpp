@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lang/link.h"
 
-#include <cassert>
 #include <set>
+#include <stdexcept>
 
 #include "lang/elaborator.h"
 #include "lang/emit.h"
@@ -227,7 +227,8 @@ std::optional<Linked> link(std::span<const Graph> graphs, const Library& library
   if (diagnostics.has_errors()) return std::nullopt;
   Linked linked{ProgramBuilder(elaborator, diagnostics).build(options.level), std::move(elaborator.params),
                 std::move(elaborator.dependencies)};
-  assert(!vm::verify(linked.program));
+  if (const auto fault = vm::verify(linked.program))
+    throw std::logic_error("emitted code does not verify: " + fault->function + ": " + fault->what);
   return linked;
 }
 
