@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "api/outputs.h"
+
+#include <array>
+
+#include "materials/table.h"
+
+namespace mms::api {
+
+namespace {
+
+struct Row {
+  vm::Output output;
+  std::string_view surface, volume;
+};
+
+constexpr std::array kRows = {
+    Row{vm::Output::Material, "bsdf", "phase"},
+    Row{vm::Output::Scattering, "scattering", "scattering"},
+    Row{vm::Output::Absorption, "absorption", "absorption"},
+    Row{vm::Output::EmissionMaterial, "emission_function", "emission_function"},
+    Row{vm::Output::Emission, "emission", "emission"},
+    Row{vm::Output::Height, "height", ""},
+    Row{vm::Output::Gradient, "gradient", ""},
+    Row{vm::Output::Bound, "bound", "bound"},
+};
+static_assert(kRows.size() == static_cast<std::size_t>(vm::Output::Count));
+
+}  // namespace
+
+std::string_view output_name(vm::DescriptorForm form, vm::Output output) {
+  const Row& row = kRows[static_cast<std::size_t>(output)];
+  return form == vm::DescriptorForm::Surface ? row.surface : row.volume;
+}
+
+std::optional<vm::Output> find_output(vm::DescriptorForm form, std::string_view name) {
+  if (name.empty()) return std::nullopt;
+  for (const Row& row : kRows)
+    if (output_name(form, row.output) == name) return row.output;
+  return std::nullopt;
+}
+
+std::optional<NumberSources> number_sources(const vm::Descriptor& d, vm::Output output) {
+  switch (output) {
+    case vm::Output::Scattering:
+      return NumberSources{&d.pass, {d.pass.scattering}};
+    case vm::Output::Absorption:
+      return NumberSources{&d.pass, {d.pass.absorption}};
+    case vm::Output::Emission:
+      return NumberSources{&d.emit, {d.emit.emission}};
+    case vm::Output::Height:
+      return NumberSources{&d.displace, {d.displace.height}};
+    case vm::Output::Bound:
+      return NumberSources{&d.displace, {d.displace.bound}};
+    case vm::Output::Gradient:
+      return NumberSources{&d.shade, {d.shade.gradient[0], d.shade.gradient[1]}};
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<MaterialSource> material_source(const vm::Descriptor& d, vm::Output output) {
+  if (output == vm::Output::Material) return MaterialSource{&d.shade, &d.shade.material};
+  if (output == vm::Output::EmissionMaterial)
+    return MaterialSource{&d.emit, &d.emit.emission_material};
+  return std::nullopt;
+}
+
+std::string_view lobe_name(int lobe) {
+  for (const vm::Builtin& row : materials::rows()) {
+    if (row.lobe != lobe) continue;
+    const std::size_t space = row.signature.find(' ');
+    return row.signature.substr(space + 1, row.signature.find('(') - space - 1);
+  }
+  return "?";
+}
+
+}  // namespace mms::api

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every mistake a user can make ends in a message that says where, what, and what to try, in an
+// exit code of the documented list, and without a file.
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "tests/cli/command.h"
+
+using mms::cli::Folder;
+using mms::cli::Outcome;
+
+namespace {
+
+constexpr const char* kGood = "surface \"good\"\n  bsdf = matte(0.5);\nend\n";
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// The message names the place and the matter, and helps; nothing else was printed.
+void check_message(const Outcome& run, int exit, const std::string& where,
+                   const std::string& what) {
+  INFO(run.err);
+  CHECK(run.exit == exit);
+  CHECK(contains(run.err, "error"));
+  CHECK(contains(run.err, where));
+  CHECK(contains(run.err, what));
+  CHECK(contains(run.err, "help: "));
+  CHECK(run.out == "");
+}
+
+/// A mistake in a script: `check` finds it, and so does `render`, which then writes nothing.
+void check_script(const std::string& script, const std::string& where, const std::string& what) {
+  const Folder folder;
+  folder.write("bad.mms", script);
+  check_message(folder.mms("check bad.mms"), 1, where, what);
+#if MMS_RENDERER
+  check_message(folder.mms("render bad.mms -o bad.png"), 1, where, what);
+#endif
+  CHECK(folder.file_count() == 1);
+}
+
+#if MMS_RENDERER
+constexpr const char* kSmall = " --size 8x8 --samples 1 ";
+
+void check_render(const std::string& args, int exit, const std::string& where,
+                  const std::string& what, const std::string& script = kGood) {
+  const Folder folder;
+  folder.write("good.mms", script);
+  check_message(folder.mms("render good.mms " + args), exit, where, what);
+  CHECK(folder.file_count() == 1);
+}
+#endif
+
+}  // namespace
+
+TEST_CASE("missing file") {
+  const Folder folder;
+  for (const char* verb : {"check", "info", "disasm"})
+    check_message(folder.mms(std::string(verb) + " missing.mms"), 3, "missing.mms", "No such file");
+#if MMS_RENDERER
+  check_message(folder.mms("render missing.mms -o out.png"), 3, "missing.mms", "No such file");
+#endif
+  CHECK(folder.file_count() == 0);
+}
+
+TEST_CASE("a folder is no script") {
+  const Folder folder;
+  check_message(folder.mms("check ."), 3, ".", "is a folder");
+}
+
+TEST_CASE("empty file") {
+  const Folder folder;
+  folder.write("empty.mms", "");
+  check_message(folder.mms("check empty.mms"), 3, "empty.mms", "empty");
+#if MMS_RENDERER
+  check_message(folder.mms("render empty.mms -o out.png"), 3, "empty.mms", "empty");
+#endif
+  CHECK(folder.file_count() == 1);
+}
+
+TEST_CASE("syntax error") {
+  check_script("surface \"s\"\n  bsdf = matte(0.5;\nend\n", "bad.mms:2:", "error");
+}
+
+TEST_CASE("unknown name") {
+  check_script("surface \"s\"\n  bsdf = mate(0.5);\nend\n", "bad.mms:2:10", "mate");
+}
+
+TEST_CASE("wrong type") {
+  check_script("surface \"s\"\n  bsdf = 0.5;\nend\n", "bad.mms:2:", "material");
+}
+
+TEST_CASE("a misspelt output") {
+  check_script("surface \"s\"\n  heigth = 0.5;\nend\n", "bad.mms:2:3", "height");
+}
+
+TEST_CASE("an unknown param") {
+  const Folder folder;
+  folder.write("good.mms", kGood);
+  const Outcome run = folder.mms("check good.mms --param scale=2");
+  INFO(run.err);
+  CHECK(run.exit == 1);
+  CHECK(contains(run.err, "scale"));
+  check_message(folder.mms("check good.mms --param scale"), 2, "--param", "scale");
+}
+
+TEST_CASE("a material is no value to print") {
+  const Folder folder;
+  check_message(folder.mms("eval 'matte(1)'"), 1, "matte(1)", "no value");
+}
+
+TEST_CASE("endless recursion, evaluated") {
+  const Folder folder;
+  folder.write("loop.mms", "real f(real x) =\n  f(x + 1);\n");
+  check_message(folder.mms("eval -f loop.mms 'f($position[0])'"), 4, "loop.mms:", "does not end");
+}
+
+TEST_CASE("unknown verb, option or message code") {
+  const Folder folder;
+  check_message(folder.mms("chekc x.mms"), 2, "mms", "did you mean `mms check`?");
+  check_message(folder.mms(""), 2, "mms", "verb");
+  check_message(folder.mms("check"), 2, "mms check", "FILE");
+  check_message(folder.mms("check --colour=maybe x.mms"), 2, "mms check", "--colour");
+  check_message(folder.mms("check --color=maybe x.mms"), 2, "mms check", "maybe");
+  check_message(folder.mms("explain E9999"), 2, "mms explain", "E9999");
+  check_message(folder.mms("doc stdlb"), 2, "mms doc", "did you mean `stdlib`?");
+  check_message(folder.mms("eval --set positoin=1,2,3 1"), 2, "--set", "positoin");
+  check_message(folder.mms("eval --set position=1,2 1"), 2, "--set", "3 numbers");
+}
+
+#if MMS_RENDERER
+
+TEST_CASE("unknown surface and volume") {
+  check_render("-o out.png --surface god" + std::string(kSmall), 1, "god", "surface");
+  check_render("-o out.png --volume fog" + std::string(kSmall), 1, "fog", "volume");
+}
+
+TEST_CASE("nothing to render") {
+  check_render("-o out.png" + std::string(kSmall), 1, "good.mms", "nothing to render",
+               "real twice(real x) = 2 * x;\n");
+}
+
+TEST_CASE("unwritable output") {
+  check_render("-o no/such/folder/out.png" + std::string(kSmall), 3, "no/such/folder", "");
+  check_render("-o good.mms/out.png" + std::string(kSmall), 3, "good.mms/out.png", "");
+}
+
+TEST_CASE("unsupported image type") {
+  check_render("-o out.gif" + std::string(kSmall), 3, "out.gif", ".exr");
+  check_render("-o out" + std::string(kSmall), 3, "out", ".exr");
+}
+
+TEST_CASE("numbers out of range") {
+  check_render("-o out.png --size 8x8 --samples 0", 2, "--samples", "0 is not in");
+  check_render("-o out.png --size 8x8 --samples -5", 2, "--samples", "-5 is not in");
+  check_render("-o out.png --size 8x8 --samples many", 2, "--samples", "`many`");
+  check_render("-o out.png --size 0x8 --samples 1", 2, "--size", "0 is not in");
+  check_render("-o out.png --size 8 --samples 1", 2, "--size", "`8`");
+  check_render("-o out.png --max-depth 0", 2, "--max-depth", "0 is not in");
+  check_render("-o out.png --threads -1", 2, "--threads", "-1 is not in");
+  check_render("-o out.png --seed x", 2, "--seed", "`x`");
+}
+
+TEST_CASE("one picture for two scripts") {
+  check_render("good.mms -o out.png" + std::string(kSmall), 2, "-o", "2 scripts");
+}
+
+TEST_CASE("a scene that is missing, or with an unknown key") {
+  check_render("-o out.png --scene missing.json" + std::string(kSmall), 3, "missing.json", "");
+  check_render("-o out.png --scene spehre" + std::string(kSmall), 2, "spehre", "sphere");
+  const Folder folder;
+  folder.write("good.mms", kGood);
+  folder.write("scene.json", "{\n  \"camra\": {}\n}\n");
+  check_message(folder.mms("render good.mms -o out.png --scene scene.json" + std::string(kSmall)),
+                1, "scene.json", "camra");
+  folder.write("scene.json", "{\n  \"camera\": \n");
+  check_message(folder.mms("render good.mms -o out.png --scene scene.json" + std::string(kSmall)),
+                1, "scene.json", "");
+  CHECK(folder.file_count() == 2);
+}
+
+TEST_CASE("endless recursion, rendered") {
+  check_render("-o out.png" + std::string(kSmall), 4, "good.mms:2", "",
+               "real f(real x) =\n  f(x + 1);\n"
+               "surface \"good\" bsdf = matte(f($position[0])); end\n");
+}
+
+#endif

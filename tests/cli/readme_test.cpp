@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the README shows works.
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "tests/cli/command.h"
+
+namespace {
+
+std::string readme() {
+  std::ifstream in(MMS_SOURCE_DIR "/README.md", std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+TEST_CASE("the script of the README has no errors and no warnings") {
+  const std::string text = readme();
+  const std::string open = "```mms\n";
+  const std::size_t begin = text.find(open);
+  REQUIRE(begin != std::string::npos);
+  const std::size_t end = text.find("```", begin + open.size());
+  REQUIRE(end != std::string::npos);
+  const mms::cli::Folder folder;
+  folder.write("my.mms", text.substr(begin + open.size(), end - begin - open.size()));
+  const mms::cli::Outcome run = folder.mms("check -Werror my.mms");
+  INFO(run.err);
+  CHECK(run.exit == 0);
+  CHECK(run.err == "");
+}
+
+TEST_CASE("every page that the README links to is there") {
+  const std::string text = readme();
+  int links = 0;
+  for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
+    const std::size_t end = text.find(')', at);
+    REQUIRE(end != std::string::npos);
+    const std::string target = text.substr(at + 2, end - at - 2);
+    if (target.starts_with("http")) continue;
+    INFO(target);
+    CHECK(std::ifstream(std::string(MMS_SOURCE_DIR) + "/" + target).good());
+    ++links;
+  }
+  CHECK(links >= 8);
+}

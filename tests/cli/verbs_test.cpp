@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+// What each verb does when all is well.
+#include <sstream>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/command.h"
+
+using mms::cli::Folder;
+using mms::cli::Outcome;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kMarble =
+    "param real scale = 4.0 in [0.1, 20], label = \"Scale\";\n"
+    "real stripe(real x) = x - 2 * x;\n"
+    "surface \"marble\"\n"
+    "  bsdf = mix(matte(0.25), matte(0.75), scale * $position[0]);\n"
+    "  height = stripe($uv[1]);\n"
+    "end\n";
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string eval(const std::string& args, const std::string& input = "") {
+  const Folder folder;
+  const Outcome run = folder.mms("eval " + args, input);
+  INFO(run.err);
+  CHECK(run.exit == 0);
+  CHECK(run.err == "");
+  return run.out;
+}
+
+}  // namespace
+
+TEST_CASE("help and version") {
+  const Folder folder;
+  const Outcome version = folder.mms("--version");
+  CHECK(version.exit == 0);
+  CHECK(version.out.starts_with("mms "));
+  const Outcome help = folder.mms("--help");
+  CHECK(help.exit == 0);
+  for (const char* part : {"check", "render", "info", "eval", "disasm", "explain", "doc",
+                           "Exit codes", "Examples", "70", "130"})
+    CHECK(contains(help.out, part));
+  for (const char* verb : {"check", "render", "info", "eval", "disasm", "explain", "doc"}) {
+    const Outcome run = folder.mms(std::string(verb) + " --help");
+    INFO(verb);
+    CHECK(run.exit == 0);
+    CHECK(contains(run.out, "Examples:\n  mms " + std::string(verb)));
+  }
+}
+
+TEST_CASE("check says nothing about a good script, from a file or standard input") {
+  const Folder folder;
+  folder.write("marble.mms", kMarble);
+  for (const char* args : {"check marble.mms", "check -O0 marble.mms", "check -",
+                           "check --param scale=8 marble.mms", "check marble.mms marble.mms"}) {
+    const Outcome run = folder.mms(args, kMarble);
+    INFO(args, run.err);
+    CHECK(run.exit == 0);
+    CHECK(run.out == "");
+    CHECK(run.err == "");
+  }
+}
+
+TEST_CASE("check goes on after a bad file, and the worst counts") {
+  const Folder folder;
+  folder.write("bad.mms", "surface \"s\" bsdf = mate(0.5); end\n");
+  folder.write("worse.mms", "surface\n");
+  const Outcome run = folder.mms("check bad.mms worse.mms missing.mms");
+  CHECK(run.exit == 3);
+  CHECK(contains(run.err, "bad.mms:1:"));
+  CHECK(contains(run.err, "worse.mms:"));
+  CHECK(contains(run.err, "missing.mms"));
+}
+
+TEST_CASE("colours are for terminals, or where asked for") {
+  const Folder folder;
+  folder.write("bad.mms", "surface \"s\" bsdf = mate(0.5); end\n");
+  CHECK_FALSE(contains(folder.mms("check bad.mms").err, "\x1b["));
+  CHECK_FALSE(contains(folder.mms("check --color=never bad.mms").err, "\x1b["));
+  CHECK(contains(folder.mms("check --color=always bad.mms").err, "\x1b["));
+}
+
+TEST_CASE("check prints JSON for pipelines") {
+  const Folder folder;
+  folder.write("bad.mms", "surface \"s\"\n  bsdf = mate(0.5);\nend\n");
+  const Outcome run = folder.mms("check --format=json bad.mms");
+  CHECK(run.exit == 1);
+  std::istringstream lines(run.out);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const json message = json::parse(line);
+    CHECK(message.at("severity") == "error");
+    CHECK(message.at("file") == "bad.mms");
+    CHECK(message.at("line") == 2);
+    CHECK(message.at("column") == 10);
+    CHECK(message.at("code").get<std::string>().front() == 'E');
+  }
+  CHECK(count == 1);
+}
+
+TEST_CASE("explain prints the page of a code that a message showed") {
+  const Folder folder;
+  folder.write("bad.mms", "surface \"s\" bsdf = mate(0.5); end\n");
+  const std::string err = folder.mms("check bad.mms").err;
+  const std::size_t at = err.find("error[");
+  REQUIRE(at != std::string::npos);
+  const std::string code = err.substr(at + 6, 5);
+  const Outcome run = folder.mms("explain " + code);
+  CHECK(run.exit == 0);
+  CHECK(run.out.starts_with(code));
+}
+
+TEST_CASE("eval prints values of every type") {
+  CHECK(eval("'1 + 2'") == "3\n");
+  CHECK(eval("'1 / 2'") == "0.5\n");
+  CHECK(eval("'2 > 1'") == "true\n");
+  CHECK(eval("'2i * 2i + 1i'") == "-4+1i\n");
+  CHECK(eval("-- '-7 % 3'") == "2\n");
+  CHECK(eval("'[1.0, 2.0, 3.5]'") == "[1, 2, 3.5]\n");
+}
+
+TEST_CASE("eval reads variables, files and standard input") {
+  CHECK(eval("'$position[1] * 2' --set position=1,2.5,3") == "5\n");
+  CHECK(eval("'$normal'") == "[0, 0, 1]\n");
+  CHECK(eval("'$wavelength' --set wavelength=0.5") ==
+        "spectrum(0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5)\n");
+  CHECK(eval("-f - 'sq(7.0)'", "real sq(real x) = x * x;\n") == "49\n");
+  CHECK(eval("-", "const real half = 0.5;\n") == "half = 0.5\n");
+  CHECK(eval("--param k=3 -f - 'k * 2'", "param integer k = 1;\n") == "6\n");
+}
+
+TEST_CASE("eval in double does not pass through float") {
+  // 1/3 rounded to 53 bits, not to 24.
+  CHECK(eval("'1.0 / 3.0' --precision=double") == "0.3333333333333333\n");
+  CHECK(eval("'1.0 / 3.0'") == "0.33333334\n");
+}
+
+TEST_CASE("info tells what a descriptor knows of itself") {
+  const Folder folder;
+  folder.write("marble.mms", kMarble);
+  const Outcome run = folder.mms("info --format=json marble.mms");
+  INFO(run.err);
+  REQUIRE(run.exit == 0);
+  const json info = json::parse(run.out);
+  CHECK(info.at("params").at(0).at("name") == "scale");
+  CHECK(info.at("params").at(0).at("range") == json({0.1, 20.0}));
+  const json& marble = info.at("descriptors").at(0);
+  CHECK(marble.at("form") == "surface");
+  CHECK(marble.at("name") == "marble");
+  CHECK(marble.at("line") == 3);
+  const json& bsdf = marble.at("outputs").at("bsdf");
+  CHECK(bsdf.at("stated") == true);
+  CHECK(bsdf.at("constant") == false);
+  CHECK(bsdf.at("reads") == json({"$position"}));
+  CHECK(bsdf.at("material") == "mix(matte, matte)");
+  CHECK(marble.at("outputs").at("height").at("reads") == json({"$uv"}));
+  CHECK(marble.at("outputs").at("emission").at("constant") == true);
+  CHECK(marble.at("outputs").at("emission").at("stated") == false);
+  const Outcome text = folder.mms("info marble.mms");
+  CHECK(text.exit == 0);
+  CHECK(contains(text.out, "surface marble  (marble.mms:3)\n"));
+}
+
+TEST_CASE("disasm prints the bytecode") {
+  const Folder folder;
+  folder.write("marble.mms", kMarble);
+  const Outcome run = folder.mms("disasm marble.mms");
+  CHECK(run.exit == 0);
+  CHECK(contains(run.out, "PushInput"));
+  CHECK(contains(run.out, "Return"));
+}
+
+TEST_CASE("doc lists, prints, writes and checks its pages") {
+  const Folder folder;
+  CHECK(contains(folder.mms("doc").out, "bytecode"));
+  CHECK(contains(folder.mms("doc inputs").out, "`$position`"));
+  CHECK(contains(folder.mms("doc stdlib").out, "material matte("));
+  CHECK(contains(folder.mms("doc bytecode").out, "| `AddR` |"));
+  CHECK(folder.mms("doc --check .").exit == 3);
+  CHECK(folder.mms("doc --write .").exit == 0);
+  CHECK(folder.mms("doc --check .").exit == 0);
+  folder.write("inputs.md", "stale");
+  CHECK(folder.mms("doc --check .").exit == 1);
+}
+
+#if MMS_RENDERER
+
+TEST_CASE("render writes a picture and one line about it") {
+  const Folder folder;
+  folder.write("marble.mms", kMarble);
+  const Outcome run = folder.mms("render marble.mms --size 16x8 --samples 2");
+  INFO(run.err);
+  CHECK(run.exit == 0);
+  CHECK(run.err == "");
+  CHECK(run.out.starts_with("marble.png: 2 samples per pixel, "));
+  CHECK(contains(run.out, "estimated error"));
+  const std::string png = folder.read("marble.png");
+  REQUIRE(png.size() > 24);
+  CHECK(png.substr(1, 3) == "PNG");
+  CHECK(png[19] == 16);  // width and height, big-endian, of the IHDR chunk
+  CHECK(png[23] == 8);
+  CHECK(folder.file_count() == 2);
+}
+
+TEST_CASE("render of several scripts, to a folder, as JSON") {
+  const Folder folder;
+  folder.write("marble.mms", kMarble);
+  folder.write("plain.mms", "surface \"other\" bsdf = matte(0.5); end\n");
+  const Outcome run =
+      folder.mms("render marble.mms plain.mms -o . --size 8x8 --samples 2 --format=json");
+  INFO(run.err);
+  REQUIRE(run.exit == 0);
+  std::istringstream lines(run.out);
+  for (const char* name : {"marble", "plain"}) {
+    std::string line;
+    REQUIRE(std::getline(lines, line));
+    const json report = json::parse(line);
+    CHECK(report.at("script") == std::string(name) + ".mms");
+    CHECK(report.at("samples") == 2);
+    CHECK(folder.has(std::string(name) + ".png"));
+  }
+}
+
+TEST_CASE("a script from standard input renders to EXR") {
+  const Folder folder;
+  const Outcome run = folder.mms("render - -o a.exr --size 8x8 --samples 2 --quiet", kMarble);
+  INFO(run.err);
+  CHECK(run.exit == 0);
+  CHECK(run.out == "");
+  CHECK(folder.read("a.exr").substr(0, 4) == "\x76\x2f\x31\x01");
+}
+
+TEST_CASE("which surface: the one named like the file, else the first, with a note") {
+  const Folder folder;
+  const std::string two =
+      "surface \"a\" bsdf = matte(0); end\nsurface \"b\" bsdf = matte(1); end\n";
+  folder.write("b.mms", two);
+  folder.write("c.mms", two);
+  const std::string small = " --size 8x8 --samples 2 --threads 1 -o ";
+  CHECK(folder.mms("render b.mms" + small + "named.png").err == "");
+  CHECK(contains(folder.mms("render c.mms" + small + "first.png").err, "rendering `a`"));
+  CHECK(folder.mms("render c.mms --surface b" + small + "asked.png").err == "");
+  CHECK(folder.read("named.png") == folder.read("asked.png"));
+  CHECK(folder.read("named.png") != folder.read("first.png"));
+}
+
+TEST_CASE("the report counts") {
+  const Folder folder;
+  folder.write("marble.mms", kMarble);
+  const Outcome run = folder.mms("render marble.mms --size 8x8 --samples 2 --report");
+  CHECK(run.exit == 0);
+  for (const char* counter : {"script_runs", "script_points", "batch_fill", "media_steps"})
+    CHECK(contains(run.out, counter));
+}
+
+TEST_CASE("Ctrl-C writes what is there") {
+  const Folder folder;
+  const Outcome run =
+      folder.interrupted_render("-o cut.png --size 64x64 --samples 1000000", kMarble);
+  INFO(run.err);
+  CHECK(run.exit == 130);
+  CHECK(contains(run.err, "stopped: cut.png"));
+  CHECK(folder.read("cut.png").substr(1, 3) == "PNG");
+  CHECK(folder.file_count() == 1);
+}
+
+#else
+
+TEST_CASE("render says that it is not built") {
+  const Folder folder;
+  folder.write("marble.mms", kMarble);
+  const Outcome run = folder.mms("render marble.mms");
+  CHECK(run.exit == 2);
+  CHECK(contains(run.err, "without the renderer"));
+  CHECK(contains(run.err, "help: "));
+  CHECK(folder.file_count() == 1);
+}
+
+#endif

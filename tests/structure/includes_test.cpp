@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The folder listing is the architecture: includes run one way.
+#include "tests/structure/includes.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace mms::structure;
+
+std::string read(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+const Rules& rules() {
+  static const Rules all = read_rules(read(fs::path(MMS_SOURCE_DIR) / "ARCHITECTURE.md"));
+  return all;
+}
+
+bool is_source(const fs::path& path) {
+  const std::string e = path.extension().string();
+  return e == ".h" || e == ".cpp" || e == ".c" || e == ".def" || e == ".inc";
+}
+
+}  // namespace
+
+TEST_CASE("the table has a row for every folder of sources") {
+  for (const char* folder : {"base", "vm", "lang", "materials", "stdlib", "api", "renderer",
+                             "tools", "bench", "tests"}) {
+    INFO(folder);
+    CHECK(rules().contains(folder));
+  }
+  CHECK(rules().at("base").folders == std::set<std::string>{"base"});
+  CHECK(rules().at("vm").folders == std::set<std::string>{"base", "vm"});
+  CHECK_FALSE(rules().at("lang").folders.contains("stdlib"));
+  CHECK(rules().at("api").folders.size() == 6);
+}
+
+TEST_CASE("every include of the sources is allowed") {
+  std::size_t files = 0;
+  for (const auto& [folder, rule] : rules()) {
+    const fs::path root = fs::path(MMS_SOURCE_DIR) / folder;
+    if (!fs::exists(root)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(root)) {
+      if (!entry.is_regular_file() || !is_source(entry.path())) continue;
+      ++files;
+      const std::string path = fs::relative(entry.path(), MMS_SOURCE_DIR).generic_string();
+      for (const std::string& complaint : check(rules(), path, read(entry.path())))
+        FAIL_CHECK(complaint);
+    }
+  }
+  CHECK(files > 50);  // the walk found the sources
+}
+
+TEST_CASE("a wrong include is found") {
+  CHECK(check(rules(), "vm/x.cpp", "#include \"base/vec.h\"\n#include <vector>\n").empty());
+  const auto upward = check(rules(), "vm/x.cpp", "\n#include \"lang/parser.h\"\n");
+  REQUIRE(upward.size() == 1);
+  CHECK(upward[0] == "vm/x.cpp:2: vm/ may not include lang/");
+  CHECK(check(rules(), "lang/x.cpp", "#  include \"stdlib/stdlib.h\"").size() == 1);
+  CHECK(check(rules(), "base/x.h", "#include <vm/types.h>").size() == 1);
+  CHECK(check(rules(), "unknown/x.h", "").size() == 1);
+}
+
+TEST_CASE("third-party headers stand where the table says") {
+  CHECK(check(rules(), "renderer/x.cpp", "#include <embree3/rtcore.h>").empty());
+  CHECK(check(rules(), "renderer/x.h", "#include <embree3/rtcore.h>").size() == 1);
+  CHECK(check(rules(), "renderer/x.h", "#include <OpenImageIO/imageio.h>").size() == 1);
+  CHECK(check(rules(), "tools/x.cpp", "#include <OpenImageIO/imageio.h>").size() == 1);
+  CHECK(check(rules(), "base/x.cpp", "#include <fmt/format.h>").size() == 1);
+  CHECK(check(rules(), "tests/x.cpp", "#include <doctest/doctest.h>").empty());
+}

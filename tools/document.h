@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// The pages of docs/ that are made from the tables of the code.
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace mms::tools {
+
+struct Document {
+  std::string_view name;  ///< file name without `.md`
+  std::string_view doc;   ///< one sentence
+  std::string (*text)();
+};
+
+std::span<const Document> documents();
+
+std::string stdlib_document();
+std::string bytecode_document();
+std::string errors_document();
+std::string inputs_document();
+std::string cli_document();
+
+}  // namespace mms::tools

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// mms explain: the page of the error index about one message.
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tools/commands.h"
+#include "tools/script.h"
+
+namespace mms::tools {
+
+namespace {
+
+Exit explain(std::string code) {
+  std::string upper = code;
+  std::transform(upper.begin(), upper.end(), upper.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::vector<std::string> codes;
+  for (const lang::DiagInfo& row : lang::all_diagnostics()) {
+    if (row.code == upper || row.name == code) {
+      fmt::print("{} {}: {}\n\n{}\n", row.code, row.name, row.text, row.explain);
+      return Exit::Ok;
+    }
+    codes.emplace_back(row.code);
+  }
+  const std::string near = lang::nearest(upper, codes);
+  print_error({"mms explain", fmt::format("no message has the code `{}`", code),
+               near.empty() ? "codes look like E0203; docs/errors.md lists them"
+                            : fmt::format("did you mean `{}`? docs/errors.md lists all", near)});
+  return Exit::Usage;
+}
+
+}  // namespace
+
+void add_explain(CLI::App& command, Exit& exit) {
+  CLI::App* verb = command.add_subcommand("explain", "Explain a message by its code");
+  auto code = std::make_shared<std::string>();
+  verb->add_option("CODE", *code, "The code in brackets, as in error[E0203]")
+      ->required()
+      ->type_name("");
+  verb->footer("Examples:\n  mms explain E0203");
+  verb->callback([code, &exit] { exit = explain(*code); });
+}
+
+}  // namespace mms::tools

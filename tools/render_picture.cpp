@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// mms render: from scripts to pictures.
+#include <unistd.h>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "renderer/render.h"
+#include "tools/render.h"
+
+namespace mms::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// The one global: a signal handler can reach nothing else.
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+extern "C" void on_interrupt(int) {
+  interrupted = true;
+  std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends at once
+}
+
+std::string stem(const std::string& file) {
+  return file == "-" ? "stdin" : fs::path(file).stem().string();
+}
+
+/// Where the picture of `file` goes.
+Result<std::string> picture_path(const RenderRequest& request, const std::string& file) {
+  const std::string name = stem(file) + ".png";
+  if (request.output.empty()) return name;
+  std::error_code ignored;
+  if (request.output.back() == '/' || fs::is_directory(request.output, ignored))
+    return (fs::path(request.output) / name).string();
+  if (request.files.size() > 1)
+    return Error{"-o", fmt::format("one picture, but {} scripts", request.files.size()),
+                 "name a folder: each script's picture goes there"};
+  return request.output;
+}
+
+/// The surface that the test object wears: asked for, or the only one, or the one named like the
+/// script, or the first, and then a note says so. Empty: whatever the scene says.
+std::string choose_surface(const RenderRequest& request, const std::string& file,
+                           const vm::Program& program) {
+  if (!request.surface.empty()) return request.surface;
+  std::vector<std::string> names;
+  for (const vm::Descriptor& d : program.descriptors)
+    if (d.form == vm::DescriptorForm::Surface) names.push_back(d.name);
+  if (names.empty()) return "";
+  for (const std::string& name : names)
+    if (name == stem(file)) return name;
+  if (names.size() > 1 && !request.quiet)
+    fmt::print(stderr, "note: {}: {} surfaces; rendering `{}` (--surface takes another: {})\n",
+               file, names.size(), names[0], fmt::join(names.begin() + 1, names.end(), ", "));
+  return names[0];
+}
+
+/// A line on the terminal that is written over while rendering goes on.
+class ProgressLine {
+ public:
+  ProgressLine(bool shown, std::string name) : shown_(shown), name_(std::move(name)) {}
+  ~ProgressLine() {
+    if (shown_) fmt::print(stderr, "\r\x1b[K");
+  }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void show(const renderer::Progress& p) const {
+    if (!shown_) return;
+    fmt::print(stderr, "\r{}: {:3.0f}% {:.0f} s, {:.0f} s left\x1b[K", name_, 100 * p.fraction,
+               p.seconds, p.seconds_left);
+    std::fflush(stderr);
+  }
+
+ private:
+  bool shown_;
+  std::string name_;
+};
+
+Json to_json(const std::string& script, const std::string& path, const renderer::Report& r) {
+  Json faults = Json::array();
+  for (const renderer::FaultCount& f : r.faults)
+    faults.push_back({{"where", f.where}, {"cause", f.cause}, {"lanes", f.lanes}});
+  return {{"script", script},
+          {"picture", path},
+          {"samples", r.samples},
+          {"seconds", r.seconds},
+          {"error", r.rmse},
+          {"threads", r.threads},
+          {"paths", r.paths},
+          {"rays", r.rays},
+          {"shadow_rays", r.shadow_rays},
+          {"script_runs", r.script_runs},
+          {"script_points", r.script_points},
+          {"batch_fill", r.batch_fill},
+          {"pass_runs", r.pass_runs},
+          {"emission_runs", r.emission_runs},
+          {"medium_runs", r.medium_runs},
+          {"media_steps", r.media_steps},
+          {"dropped_nan", r.dropped.nan},
+          {"dropped_infinite", r.dropped.infinite},
+          {"dropped_overflow", r.dropped.overflow},
+          {"fault_lanes", r.fault_lanes},
+          {"faults", faults},
+          {"stopped", r.stopped}};
+}
+
+void print_report(const RenderRequest& request, const std::string& script, const std::string& path,
+                  const renderer::Report& r) {
+  const Json json = to_json(script, path, r);
+  if (request.json()) {
+    fmt::print("{}\n", json.dump());
+  } else if (!request.quiet) {
+    fmt::print("{}: {} samples per pixel, {:.2f} s, estimated error {:.2g}\n", path, r.samples,
+               r.seconds, r.rmse);
+    if (request.report)
+      for (const auto& [name, value] : json.items())
+        if (value.is_number()) fmt::print("  {:<18}{}\n", name, value.dump());
+  }
+  std::fflush(stdout);
+  if (r.dropped.count() > 0)
+    fmt::print(
+        stderr,
+        "warning: {}: {} samples were not finite and were left out; the first: pixel ({}, {}), "
+        "sample {}\n",
+        script, r.dropped.count(), r.dropped.first_x, r.dropped.first_y, r.dropped.first_sample);
+  for (const renderer::FaultCount& f : r.faults)
+    fmt::print(stderr, "warning: {}: {} at {} points: the output's default was taken there\n",
+               f.where, f.cause, f.lanes);
+}
+
+renderer::RenderOptions render_options(const RenderRequest& request) {
+  renderer::RenderOptions options;
+  options.width = request.width;
+  options.height = request.height;
+  options.samples = request.sample_count;
+  options.threads = request.thread_count;
+  options.seed = request.seed_number;
+  options.max_depth = request.depth;
+  options.stop = &interrupted;
+  return options;
+}
+
+/// How a finished render ends: stopped by hand, given up for its faults, or well.
+Exit verdict(const RenderRequest& request, const std::string& path, const renderer::Report& r) {
+  if (r.too_many_faults)
+    return fail(Exit::Budget,
+                {r.faults.empty() ? path : r.faults[0].where,
+                 fmt::format("too many points ran out of budget ({}); what was there is in {}",
+                             r.fault_lanes, path),
+                 "check the condition that ends the recursion on this line"},
+                request);
+  if (!r.stopped) return Exit::Ok;
+  fmt::print(stderr, "stopped: {} holds what was there, {} samples per pixel\n", path, r.samples);
+  return Exit::Interrupted;
+}
+
+/// What a scene that did not load means: no such file, no such built-in scene, or a wrong one.
+Exit scene_exit(const std::string& name) {
+  for (const std::string& known : renderer::builtin_scenes())
+    if (name == known) return Exit::Script;
+  std::error_code ignored;
+  if (fs::exists(name, ignored)) return Exit::Script;
+  return name.ends_with(".json") || name.find('/') != std::string::npos ? Exit::File : Exit::Usage;
+}
+
+Exit render_one(const RenderRequest& request, const std::string& file, const std::string& path) {
+  Exit exit = Exit::Ok;
+  const auto linked = compile_files({file}, request, exit);
+  if (!linked) return exit;
+  if (linked->program.descriptors.empty())
+    return fail(Exit::Script,
+                {file, "nothing to render: no surface and no volume",
+                 "add one: surface \"plain\" bsdf = matte(0.5); end"},
+                request);
+  const renderer::SceneSource source{request.scene, choose_surface(request, file, linked->program),
+                                     request.volume};
+  const auto scene = renderer::load_scene(linked->program, source);
+  if (!scene) return fail(scene_exit(request.scene), scene.error(), request);
+
+  renderer::RenderOptions options = render_options(request);
+  auto rendered = [&] {
+    const ProgressLine line(!request.quiet && isatty(STDERR_FILENO), path);
+    options.progress = [&line](const renderer::Progress& p) { line.show(p); };
+    return renderer::render(linked->program, *scene, options);
+  }();
+  if (!rendered) return fail(Exit::Budget, rendered.error(), request);
+  const auto written = renderer::write_image(path, rendered->film, {request.stops});
+  if (!written) return fail(Exit::File, written.error(), request);
+  print_report(request, file, path, rendered->report);
+  return verdict(request, path, rendered->report);
+}
+
+}  // namespace
+
+Exit render_pictures(const RenderRequest& request) {
+  std::vector<std::string> paths;
+  for (const std::string& file : request.files) {
+    const auto path = picture_path(request, file);
+    if (!path) return fail(Exit::Usage, path.error(), request);
+    if (const auto ok = renderer::check_writable(*path); !ok)
+      return fail(Exit::File, ok.error(), request);
+    paths.push_back(*path);
+  }
+  std::signal(SIGINT, on_interrupt);
+  Exit worst = Exit::Ok;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const Exit exit = render_one(request, request.files[i], paths[i]);
+    if (exit > worst) worst = exit;
+    if (interrupted) break;
+  }
+  return worst;
+}
+
+}  // namespace mms::tools

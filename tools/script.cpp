@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/script.h"
+
+#include <unistd.h>
+#include <cstdio>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "api/library.h"
+#include "lang/parser.h"
+
+namespace mms::tools {
+
+namespace {
+
+/// The words that an option takes; its help text lists them.
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  return CLI::IsMember(words).description("");
+}
+
+}  // namespace
+
+void add_script_options(CLI::App& verb, ScriptOptions& o) {
+  verb.add_option("-I", o.import_path, "Folder to look for imports in, after the script's own")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  verb.add_option("-O", o.level, "Optimisation level: -O0, -O1 or -O2; the values never differ")
+      ->type_name("LEVEL")
+      ->check(one_of({"0", "1", "2"}));
+  verb.add_option("--param", o.params, "Value of a `param` of the script")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  verb.add_option("-W", o.warnings, "Written -Werror: warnings are errors")
+      ->type_name("error")
+      ->check(one_of({"error"}));
+  verb.add_option("--color", o.colour, "Colour messages: auto, always or never")
+      ->type_name("WHEN")
+      ->check(one_of({"auto", "always", "never"}));
+}
+
+void add_format_option(CLI::App& verb, ScriptOptions& o) {
+  verb.add_option("--format", o.format, "text (the default) is for people, json for pipelines")
+      ->type_name("FORMAT")
+      ->check(one_of({"text", "json"}));
+}
+
+bool colours(const ScriptOptions& options) {
+  if (options.colour != "auto") return options.colour == "always";
+  const char* no = std::getenv("NO_COLOR");
+  return !(no && *no) && isatty(STDERR_FILENO);
+}
+
+void print_error(const Error& error, bool colour) {
+  fmt::print(stderr, "{}error:{} {}{}{}\n", colour ? "\x1b[1;31m" : "", colour ? "\x1b[0m" : "",
+             error.where, error.where.empty() ? "" : ": ", error.what);
+  if (!error.hint.empty()) fmt::print(stderr, "  = help: {}\n", error.hint);
+}
+
+Exit fail(Exit code, const Error& error, const ScriptOptions& options) {
+  print_error(error, colours(options));
+  return code;
+}
+
+Result<std::pair<std::string, std::string>> split_setting(const std::string& option,
+                                                          const std::string& text) {
+  const std::size_t at = text.find('=');
+  if (at == 0 || at == std::string::npos)
+    return Error{option, fmt::format("`{}` is not a setting", text),
+                 fmt::format("write {} name=value", option)};
+  return std::pair(text.substr(0, at), text.substr(at + 1));
+}
+
+namespace {
+
+/// A message that has no help of its own names its page.
+lang::Diagnostic with_help(lang::Diagnostic d) {
+  if (d.helps.empty()) d.help(fmt::format("`mms explain {}` says more", lang::info(d.id).code));
+  return d;
+}
+
+void print(const lang::Diagnostics& diagnostics, const ScriptOptions& options) {
+  const bool colour = colours(options);
+  const char* separator = "";
+  for (const lang::Diagnostic& d : diagnostics.all()) {
+    if (options.json()) {
+      fmt::print("{}\n", lang::render_json(d));
+      continue;
+    }
+    fmt::print(stderr, "{}{}", separator, lang::render(with_help(d), colour));
+    separator = "\n";
+  }
+}
+
+Result<lang::LinkOptions> link_options(const ScriptOptions& options) {
+  lang::LinkOptions link;
+  link.level = static_cast<lang::Level>(options.level[0] - '0');
+  link.import_path = options.import_path;
+  for (const std::string& text : options.params) {
+    auto setting = split_setting("--param", text);
+    if (!setting) return setting.error();
+    link.params.push_back(std::move(*setting));
+  }
+  return link;
+}
+
+}  // namespace
+
+std::optional<lang::Linked> compile(const std::vector<lang::SourcePtr>& sources,
+                                    const ScriptOptions& options, Exit& exit) {
+  const Result<lang::LinkOptions> link = link_options(options);
+  if (!link) {
+    exit = fail(Exit::Usage, link.error(), options);
+    return std::nullopt;
+  }
+  lang::Diagnostics diagnostics;
+  std::vector<lang::Graph> graphs;
+  for (const lang::SourcePtr& source : sources) graphs.push_back(lang::parse(source, diagnostics));
+  std::optional<lang::Linked> linked;
+  if (!diagnostics.has_errors())
+    linked = lang::link(graphs, api::standard_library(), *link, diagnostics);
+  print(diagnostics, options);
+  const bool refused = options.warnings == "error" && diagnostics.warning_count() > 0;
+  if (linked && !refused) return linked;
+  if (refused && !diagnostics.has_errors())
+    print_error({"", "there were warnings, and -Werror is set", ""}, colours(options));
+  exit = Exit::Script;
+  return std::nullopt;
+}
+
+std::optional<lang::Linked> compile_files(const std::vector<std::string>& files,
+                                          const ScriptOptions& options, Exit& exit) {
+  std::vector<lang::SourcePtr> sources;
+  for (const std::string& file : files) {
+    Result<lang::SourcePtr> source = api::read_source(file);
+    if (!source) {
+      exit = fail(Exit::File, source.error(), options);
+      return std::nullopt;
+    }
+    sources.push_back(*source);
+  }
+  return compile(sources, options, exit);
+}
+
+}  // namespace mms::tools
