@@ -54,13 +54,28 @@ struct TypeExpr {
     Path path;               ///< Named; Generic has its one name here
     Span span;
   };
-  std::vector<Dim> dims;             ///< Array: one or two. `T[c][r]` has been turned to `T[r,c]`
-  TypeHandle element;                ///< Array: the element; Function: the result
-  std::vector<TypeHandle> formals;   ///< Function
+  std::vector<Dim> dims;            ///< Array: one or two. `T[c][r]` has been turned to `T[r,c]`
+  TypeHandle element;               ///< Array: the element; Function: the result
+  std::vector<TypeHandle> formals;  ///< Function
 };
 
 enum class Operator : std::uint8_t {
-  Add, Sub, Mul, Div, Mod, Pow, Neg, Not, And, Or, Eq, Ne, Lt, Gt, Le, Ge
+  Add,
+  Sub,
+  Mul,
+  Div,
+  Mod,
+  Pow,
+  Neg,
+  Not,
+  And,
+  Or,
+  Eq,
+  Ne,
+  Lt,
+  Gt,
+  Le,
+  Ge
 };
 std::string_view spelling(Operator op);  ///< `+`, `and`, ...
 
@@ -141,9 +156,9 @@ struct TypeDefinition {
   };
   Form form = Form::Alias;
   Name name;
-  TypeHandle type;               ///< Alias
-  std::vector<Name> enumerators; ///< Enum
-  std::vector<Field> fields;     ///< Struct
+  TypeHandle type;                ///< Alias
+  std::vector<Name> enumerators;  ///< Enum
+  std::vector<Field> fields;      ///< Struct
   std::string doc;
   Span span;
 };
@@ -170,8 +185,8 @@ struct Function {
   Body body;         ///< empty in the one-line form
   ExprHandle value;  ///< what is returned; none in a signature
   std::string doc;
-  Span span;      ///< the whole definition
-  Span header;    ///< result type to closing parenthesis
+  Span span;    ///< the whole definition
+  Span header;  ///< result type to closing parenthesis
 };
 
 struct Descriptor {

@@ -57,7 +57,8 @@ void Elaborator::derive_builtin(const Node& n, Ref r, Tangents& t) {
         .help("state the `gradient` output beside `height`");
     return;
   }
-  graphs_.push_back(parse_signature(make_source("<library>", std::string(row->signature)), diagnostics_));
+  graphs_.push_back(
+      parse_signature(make_source("<library>", std::string(row->signature)), diagnostics_));
   const Graph& signature = graphs_.back();
   Scope* scope = new_scope(library_scope_, true);
   std::size_t next = 0;
@@ -80,7 +81,9 @@ void Elaborator::derive_builtin(const Node& n, Ref r, Tangents& t) {
     bool moves = false;
     for (Ref a : flat) moves = moves || t.count(a);
     if (!moves) continue;
-    graphs_.push_back(parse_expression(make_source("<derivative of " + std::string(row->signature) + ">", std::string(rule)), diagnostics_));
+    graphs_.push_back(parse_expression(
+        make_source("<derivative of " + std::string(row->signature) + ">", std::string(rule)),
+        diagnostics_));
     const Graph& g = graphs_.back();
     const Value partial = expr({&g, scope}, {static_cast<std::uint32_t>(g.exprs.size() - 1)});
     std::vector<Ref> partials;
@@ -161,17 +164,23 @@ void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
   switch (n.op) {
     case Op::PushInput: {
       const vm::Variable v = vm::input_variable(static_cast<int>(n.a));
-      const std::string_view along = direction == 0 ? vm::info(v).along_tangent : vm::info(v).along_bitangent;
+      const std::string_view along =
+          direction == 0 ? vm::info(v).along_tangent : vm::info(v).along_bitangent;
       for (const vm::VariableInfo& row : vm::kVariables)
         if (!along.empty() && row.name == along)
           t[r] = input(vm::input_index(row.variable) + static_cast<int>(n.a) - vm::input_index(v));
       return;
     }
-    case Op::AddR: return set(add(d(0), d(1)));
-    case Op::SubR: return set(add(d(0), negative(d(1))));
-    case Op::NegR: return set(negative(d(0)));
-    case Op::MulR: return set(add(times(0, d(1)), times(1, d(0))));
-    case Op::FmaR: return set(add(add(times(0, d(1)), times(1, d(0))), d(2)));
+    case Op::AddR:
+      return set(add(d(0), d(1)));
+    case Op::SubR:
+      return set(add(d(0), negative(d(1))));
+    case Op::NegR:
+      return set(negative(d(0)));
+    case Op::MulR:
+      return set(add(times(0, d(1)), times(1, d(0))));
+    case Op::FmaR:
+      return set(add(add(times(0, d(1)), times(1, d(0))), d(2)));
     case Op::DivR: {  // (da - (a / b) db) / b
       const auto top = add(d(0), d(1) ? negative(node(Op::MulR, {r, *d(1)})) : std::nullopt);
       return set(top ? std::optional<Ref>(node(Op::DivR, {*top, n.args[1]})) : std::nullopt);
@@ -198,12 +207,15 @@ void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
           const auto x = d(1 + static_cast<std::size_t>(arm) * count + k);
           args.push_back(x ? *x : real(0));
         }
-      const Ref choice = node(Op::If, std::move(args), 0, 0, std::vector<SlotType>(moving.size(), SlotType::Real));
+      const Ref choice =
+          node(Op::If, std::move(args), 0, 0, std::vector<SlotType>(moving.size(), SlotType::Real));
       for (std::size_t k = 0; k < moving.size(); ++k)
-        t[{index, static_cast<std::uint16_t>(moving[k]), function_}] = {choice.node, static_cast<std::uint16_t>(k), function_};
+        t[{index, static_cast<std::uint16_t>(moving[k]), function_}] = {
+            choice.node, static_cast<std::uint16_t>(k), function_};
       return;
     }
-    case Op::CallBuiltin: return derive_builtin(n, r, t);
+    case Op::CallBuiltin:
+      return derive_builtin(n, r, t);
     case Op::Call: {
       bool active = false;
       for (Ref a : n.args) active = active || t.count(a);
@@ -211,14 +223,18 @@ void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
       const std::uint16_t derived = derive_function(static_cast<std::uint16_t>(n.a), direction);
       std::vector<Ref> args = n.args;
       for (std::size_t k = 0; k < n.args.size(); ++k)
-        if (module.functions[n.a].params[k] == SlotType::Real) args.push_back(d(k) ? *d(k) : real(0));
-      const Ref call = node(Op::Call, std::move(args), derived, 0, std::vector<SlotType>(n.results.size(), SlotType::Real));
+        if (module.functions[n.a].params[k] == SlotType::Real)
+          args.push_back(d(k) ? *d(k) : real(0));
+      const Ref call = node(Op::Call, std::move(args), derived, 0,
+                            std::vector<SlotType>(n.results.size(), SlotType::Real));
       for (std::size_t k = 0; k < n.results.size(); ++k)
         if (n.results[k] == SlotType::Real)
-          t[{index, static_cast<std::uint16_t>(k), function_}] = {call.node, static_cast<std::uint16_t>(k), function_};
+          t[{index, static_cast<std::uint16_t>(k), function_}] = {
+              call.node, static_cast<std::uint16_t>(k), function_};
       return;
     }
-    default: return;  // integers, logic and spectra do not move a height
+    default:
+      return;  // integers, logic and spectra do not move a height
   }
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -52,9 +53,18 @@ struct Diagnostic {
   std::vector<Note> notes;
   std::vector<std::string> helps;  ///< `help: ...` lines
 
-  Diagnostic& labelled(std::string text_) { label = std::move(text_); return *this; }
-  Diagnostic& note(Span s, std::string t) { notes.push_back({s, std::move(t)}); return *this; }
-  Diagnostic& help(std::string t) { helps.push_back(std::move(t)); return *this; }
+  Diagnostic& labelled(std::string text_) {
+    label = std::move(text_);
+    return *this;
+  }
+  Diagnostic& note(Span s, std::string t) {
+    notes.push_back({s, std::move(t)});
+    return *this;
+  }
+  Diagnostic& help(std::string t) {
+    helps.push_back(std::move(t));
+    return *this;
+  }
 };
 
 /// Errors of one compilation; after them comes one TooManyErrors, and nothing more is kept. As many
@@ -70,6 +80,9 @@ class Diagnostics {
     return add_text(id, span, fmt::format(fmt::runtime(info(id).text), args...));
   }
 
+  /// Keeps a source alive as long as the messages that point into it.
+  void keep(SourcePtr source) { sources_.push_back(std::move(source)); }
+
   const std::vector<Diagnostic>& all() const { return all_; }
   bool has_errors() const { return errors_ > 0; }
   std::size_t error_count() const { return errors_; }
@@ -79,6 +92,7 @@ class Diagnostics {
   Diagnostic& add_text(Diag id, Span span, std::string text);
 
   std::vector<Diagnostic> all_;
+  std::vector<SourcePtr> sources_;
   std::set<std::tuple<Diag, const Source*, std::uint32_t, std::uint32_t>> seen_;
   Diagnostic dropped_{};  ///< where repeated messages go
   std::size_t errors_ = 0;

@@ -57,7 +57,8 @@ const Elaborator::Signature& Elaborator::signature(const vm::Builtin* row) {
 
 std::vector<BoundArgument> Elaborator::arguments(Context c, const Expr& e) {
   std::vector<BoundArgument> args;
-  for (const Argument& a : e.arguments) args.push_back({a.name, expr(c, a.value), (*c.graph)[a.value].span});
+  for (const Argument& a : e.arguments)
+    args.push_back({a.name, expr(c, a.value), (*c.graph)[a.value].span});
   return args;
 }
 
@@ -77,7 +78,8 @@ Value Elaborator::expr_call(Context c, const Expr& e) {
   return call_function_value(f, arguments(c, e), e.span);
 }
 
-Value Elaborator::call_named(Context c, const Path& path, std::vector<BoundArgument> args, Span span) {
+Value Elaborator::call_named(Context c, const Path& path, std::vector<BoundArgument> args,
+                             Span span) {
   Binding* b = find(c, path);
   if (!b) {
     // Named in the language's design, not made yet: said so rather than called unknown.
@@ -135,8 +137,9 @@ std::string Elaborator::describe(const Candidate& k) {
   return s.source ? s.source->text.substr(s.begin, s.end - s.begin) : k.decl->function().name.text;
 }
 
-Value Elaborator::call_candidates(const std::vector<std::vector<Candidate>>& levels, std::string_view name,
-                                  std::vector<BoundArgument>& args, Span span) {
+Value Elaborator::call_candidates(const std::vector<std::vector<Candidate>>& levels,
+                                  std::string_view name, std::vector<BoundArgument>& args,
+                                  Span span) {
   for (const BoundArgument& a : args)
     if (a.value.poison()) return {};
   std::string why;
@@ -185,7 +188,8 @@ bool Elaborator::bind_formals(const Function& f, const std::vector<BoundArgument
       }
     }
     if (k >= f.formals.size()) {
-      m.why = fmt::format("it takes {} argument{}, found {}", f.formals.size(), f.formals.size() == 1 ? "" : "s", args.size());
+      m.why = fmt::format("it takes {} argument{}, found {}", f.formals.size(),
+                          f.formals.size() == 1 ? "" : "s", args.size());
       return false;
     }
     if (m.argument[k] >= 0) {
@@ -217,7 +221,8 @@ Elaborator::Match Elaborator::match(const Candidate& k, const std::vector<BoundA
     if (s && s->all_real && type == TypeTable::kSpectrum) {
       cost += kLiftCost;
     } else if (!unify(c, f.formals[i].type, type, m.generics, cost)) {
-      m.why = fmt::format("its argument `{}` does not take `{}`", f.formals[i].name.text, types_.spell(type));
+      m.why = fmt::format("its argument `{}` does not take `{}`", f.formals[i].name.text,
+                          types_.spell(type));
       return m;
     }
   }
@@ -225,7 +230,8 @@ Elaborator::Match Elaborator::match(const Candidate& k, const std::vector<BoundA
   return m;
 }
 
-Value Elaborator::call_builtin(const vm::Builtin* row, const Match& m, std::vector<BoundArgument>& args, Span span) {
+Value Elaborator::call_builtin(const vm::Builtin* row, const Match& m,
+                               std::vector<BoundArgument>& args, Span span) {
   const Signature& s = signature(row);
   const Function& f = s.function();
   const Context c{&s.graph, library_scope_};
@@ -233,7 +239,8 @@ Value Elaborator::call_builtin(const vm::Builtin* row, const Match& m, std::vect
   bool lifted = false;
   for (std::size_t i = 0; i < f.formals.size(); ++i) {
     const int k = m.argument[i];
-    Value v = k >= 0 ? std::move(args[static_cast<std::size_t>(k)].value) : expr(c, f.formals[i].default_value);
+    Value v = k >= 0 ? std::move(args[static_cast<std::size_t>(k)].value)
+                     : expr(c, f.formals[i].default_value);
     if (s.all_real && v.type == TypeTable::kSpectrum) {
       lifted = true;
     } else {
@@ -247,9 +254,11 @@ Value Elaborator::call_builtin(const vm::Builtin* row, const Match& m, std::vect
   if (lifted) return call_spectral(row, values, span);
   std::vector<Ref> refs;
   for (const Value& v : values) flatten(v, refs);
-  const Ref r = node(Op::CallBuiltin, std::move(refs), module.builtin(row, s.params, s.results), 0, s.results);
+  const Ref r = node(Op::CallBuiltin, std::move(refs), module.builtin(row, s.params, s.results), 0,
+                     s.results);
   std::vector<Ref> results;
-  for (std::size_t k = 0; k < s.results.size(); ++k) results.push_back({r.node, static_cast<std::uint16_t>(k), r.function});
+  for (std::size_t k = 0; k < s.results.size(); ++k)
+    results.push_back({r.node, static_cast<std::uint16_t>(k), r.function});
   std::size_t next = 0;
   return unflatten(s.result, results, next);
 }
@@ -262,7 +271,8 @@ Value Elaborator::call_spectral(const vm::Builtin* row, const std::vector<Value>
     refs.push_back(values[k].refs[0]);
     if (values[k].type == TypeTable::kSpectrum) mask |= 1u << k;
   }
-  return scalar(TypeTable::kSpectrum, node(Op::CallSpectral, std::move(refs), module.builtin(row, s.params, s.results), mask));
+  return scalar(TypeTable::kSpectrum, node(Op::CallSpectral, std::move(refs),
+                                           module.builtin(row, s.params, s.results), mask));
 }
 
 Value Elaborator::make_material(const vm::Builtin* row, const std::vector<Value>& values) {
@@ -294,7 +304,9 @@ Value Elaborator::construct(TypeId type, std::vector<BoundArgument>& args, Span 
   std::vector<std::optional<Value>> fields(t.parts.size());
   for (std::size_t i = 0; i < args.size(); ++i) {
     std::size_t k = i;
-    if (args[i].name) k = static_cast<std::size_t>(std::find(t.members.begin(), t.members.end(), args[i].name->text) - t.members.begin());
+    if (args[i].name)
+      k = static_cast<std::size_t>(
+          std::find(t.members.begin(), t.members.end(), args[i].name->text) - t.members.begin());
     if (k >= fields.size() || fields[k]) {
       diagnostics_.add(Diag::StructArguments, span, t.name, t.members.size());
       return {};
@@ -337,7 +349,8 @@ Value Elaborator::call_function_value(const Value& f, std::vector<BoundArgument>
     } else if (args.size() == 2) {
       v = binary(*fn.op, args[0].value, args[1].value, span);
     } else {
-      diagnostics_.add(Diag::ArgumentCount, span, std::string("#") + std::string(spelling(*fn.op)), 2, args.size());
+      diagnostics_.add(Diag::ArgumentCount, span, std::string("#") + std::string(spelling(*fn.op)),
+                       2, args.size());
       return {};
     }
   } else if (!fn.path.empty()) {
@@ -364,7 +377,8 @@ Value Elaborator::call_lambda(const FunctionValue& f, std::vector<BoundArgument>
     Binding b;
     b.value = args[i].value;
     if (e.formals[i].type)
-      b.value = convert(b.value, resolve_type({f.graph, scope}, e.formals[i].type, nullptr), args[i].span);
+      b.value = convert(b.value, resolve_type({f.graph, scope}, e.formals[i].type, nullptr),
+                        args[i].span);
     declare(scope, e.formals[i].name, std::move(b));
   }
   frames_.push_back({nullptr, dynamic_, false, inlined_});
@@ -391,12 +405,14 @@ TypeId Elaborator::formal_type(Context c, TypeHandle h, TypeId actual, const Gen
 }
 
 /// Generic results of function arguments are found by trying the function on its argument types.
-void Elaborator::infer_results(Context c, const Function& f, const std::vector<Value>& formals, Generics& g) {
+void Elaborator::infer_results(Context c, const Function& f, const std::vector<Value>& formals,
+                               Generics& g) {
   for (std::size_t i = 0; i < f.formals.size(); ++i) {
     const TypeExpr& t = (*c.graph)[f.formals[i].type];
     if (t.form != TypeExpr::Form::Function || formals[i].type != TypeTable::kClosure) continue;
     const TypeExpr& result = (*c.graph)[t.element];
-    const bool named = result.form == TypeExpr::Form::Generic || result.form == TypeExpr::Form::Named;
+    const bool named =
+        result.form == TypeExpr::Form::Generic || result.form == TypeExpr::Form::Named;
     if (!named || result.path.size() != 1 || g.types.count(result.path[0].text)) continue;
     if (result.form == TypeExpr::Form::Named && find(c.scope, result.path[0].text)) continue;
     std::vector<BoundArgument> args;
@@ -410,18 +426,21 @@ void Elaborator::infer_results(Context c, const Function& f, const std::vector<V
       std::size_t next = 0;
       args.push_back({std::nullopt, unflatten(type, refs, next), {}});
     }
-    g.types[result.path[0].text] = call_function_value(formals[i], std::move(args), f.formals[i].name.span).type;
+    g.types[result.path[0].text] =
+        call_function_value(formals[i], std::move(args), f.formals[i].name.span).type;
   }
 }
 
-Value Elaborator::call_script(FunctionDecl* d, const Match& m, std::vector<BoundArgument>& args, Span span) {
+Value Elaborator::call_script(FunctionDecl* d, const Match& m, std::vector<BoundArgument>& args,
+                              Span span) {
   const Function& f = d->function();
   const Context c{d->graph, d->scope};
   Generics g = m.generics;
   std::vector<Value> formals;
   for (std::size_t i = 0; i < f.formals.size(); ++i) {
     const int k = m.argument[i];
-    formals.push_back(k >= 0 ? std::move(args[static_cast<std::size_t>(k)].value) : expr(c, f.formals[i].default_value));
+    formals.push_back(k >= 0 ? std::move(args[static_cast<std::size_t>(k)].value)
+                             : expr(c, f.formals[i].default_value));
     if (formals.back().poison()) return {};
   }
   infer_results(c, f, formals, g);
@@ -442,7 +461,8 @@ bool Elaborator::any_known(const std::vector<Value>& values) const {
   return std::any_of(refs.begin(), refs.end(), [&](Ref r) { return known(r) != nullptr; });
 }
 
-Value Elaborator::invoke(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g, TypeId result, Span span) {
+Value Elaborator::invoke(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g,
+                         TypeId result, Span span) {
   // The outermost open call of this function since the last machine function was begun.
   std::size_t first = frames_.size();
   bool compiling = false;
@@ -453,7 +473,8 @@ Value Elaborator::invoke(FunctionDecl* d, const std::vector<Value>& formals, con
     if (frame.instance) break;
   }
   const bool again = first < frames_.size();
-  if (compiling || (d->recursive && !again && !any_known(formals))) return call_instance(d, formals, g, result, span);
+  if (compiling || (d->recursive && !again && !any_known(formals)))
+    return call_instance(d, formals, g, result, span);
   const bool too_much = frames_.size() >= static_cast<std::size_t>(vm::limits::kInlineDepth) ||
                         (again && inlined_ - frames_[first].inlined > kUnrolledCalls);
   if (again && (dynamic_ > frames_[first].dynamic || too_much)) throw Recursion{first};
@@ -480,7 +501,8 @@ Value Elaborator::invoke(FunctionDecl* d, const std::vector<Value>& formals, con
   return v;
 }
 
-Value Elaborator::inline_body(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g, TypeId result) {
+Value Elaborator::inline_body(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g,
+                              TypeId result) {
   const Function& f = d->function();
   Scope* scope = new_scope(d->scope, d->library);
   const Context c{d->graph, scope};
@@ -514,19 +536,26 @@ void Elaborator::body(Context c, const Body& b) {
         Binding binding;
         binding.value = expr(c, a.value);
         if (a.type)
-          binding.value = convert(binding.value, resolve_type(c, a.type, nullptr), (*c.graph)[a.value].span,
-                                  (*c.graph)[a.type].span);
+          binding.value = convert(binding.value, resolve_type(c, a.type, nullptr),
+                                  (*c.graph)[a.value].span, (*c.graph)[a.type].span);
         declare(c.scope, a.name, std::move(binding));
         break;
       }
-      case Item::Form::Constant: declare_constant(c, b.constants[item.index]); break;
-      case Item::Form::Type: declare_type(c, b.types[item.index]); break;
-      case Item::Form::Function: declare_function(c, b.functions[item.index]); break;
+      case Item::Form::Constant:
+        declare_constant(c, b.constants[item.index]);
+        break;
+      case Item::Form::Type:
+        declare_type(c, b.types[item.index]);
+        break;
+      case Item::Form::Function:
+        declare_function(c, b.functions[item.index]);
+        break;
     }
   }
 }
 
-std::string Elaborator::instance_key(const FunctionDecl* d, const std::vector<Value>& formals) const {
+std::string Elaborator::instance_key(const FunctionDecl* d,
+                                     const std::vector<Value>& formals) const {
   std::string key = fmt::format("{}", static_cast<const void*>(d));
   for (const Value& v : formals) {
     key += fmt::format("|{}", v.type);
@@ -549,13 +578,14 @@ Ref Elaborator::call_site(Instance& instance, const std::vector<Ref>& args) {
   return r;
 }
 
-Value Elaborator::call_instance(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g,
-                                TypeId result, Span span) {
+Value Elaborator::call_instance(FunctionDecl* d, const std::vector<Value>& formals,
+                                const Generics& g, TypeId result, Span span) {
   const std::string& name = d->function().name.text;
   if (!types_.is_numeric(result)) {
     diagnostics_.add(Diag::UnboundedRecursion, span, name, types_.spell(result))
         .note(d->function().header, "it calls itself under a condition known only at run time")
-        .help("let the recursion end by numbers that are known at link time (constants and params)");
+        .help(
+            "let the recursion end by numbers that are known at link time (constants and params)");
     return {};
   }
   auto [it, is_new] = instances_.try_emplace(instance_key(d, formals));
@@ -598,7 +628,8 @@ Value Elaborator::call_instance(FunctionDecl* d, const std::vector<Value>& forma
       for (SlotType s : slots) {
         std::vector<SlotType>& locals = module.functions[function_].params;
         locals.push_back(s);
-        refs.push_back(node(Op::LoadLocal, {}, static_cast<std::uint32_t>(locals.size() - 1), 0, {s}));
+        refs.push_back(
+            node(Op::LoadLocal, {}, static_cast<std::uint32_t>(locals.size() - 1), 0, {s}));
       }
       std::size_t next = 0;
       inside.push_back(unflatten(v.type, refs, next));

@@ -25,16 +25,28 @@ Value Elaborator::expr(Context c, ExprHandle h) {
   line_ = line_of(e.span);
   Value v;
   switch (e.form) {
-    case Expr::Form::Integer: v = scalar(kInt, integer(e.integer)); break;
-    case Expr::Form::Real: v = scalar(kReal, real(e.real)); break;
-    case Expr::Form::Imaginary: v = {kComplex, {real(0), real(e.real)}, {}, {}, {}, {}}; break;
-    case Expr::Form::Logic: v = scalar(kLogic, logic(e.integer != 0)); break;
+    case Expr::Form::Integer:
+      v = scalar(kInt, integer(e.integer));
+      break;
+    case Expr::Form::Real:
+      v = scalar(kReal, real(e.real));
+      break;
+    case Expr::Form::Imaginary:
+      v = {kComplex, {real(0), real(e.real)}, {}, {}, {}, {}};
+      break;
+    case Expr::Form::Logic:
+      v = scalar(kLogic, logic(e.integer != 0));
+      break;
     case Expr::Form::String:
       v.type = TypeTable::kString;
       v.text = e.text;
       break;
-    case Expr::Form::Name: v = expr_name(c, e); break;
-    case Expr::Form::Variable: v = expr_variable(c, e); break;
+    case Expr::Form::Name:
+      v = expr_name(c, e);
+      break;
+    case Expr::Form::Variable:
+      v = expr_variable(c, e);
+      break;
     case Expr::Form::FunctionValue:
     case Expr::Form::Lambda: {
       auto f = std::make_shared<FunctionValue>();
@@ -70,15 +82,32 @@ Value Elaborator::expr(Context c, ExprHandle h) {
       }
       break;
     }
-    case Expr::Form::Binary: v = expr_binary(c, e); break;
-    case Expr::Form::Chain: v = expr_chain(c, e); break;
-    case Expr::Form::Call: v = expr_call(c, e); break;
-    case Expr::Form::Convert: v = expr_convert(c, e); break;
-    case Expr::Form::Index: v = expr_index(c, e); break;
-    case Expr::Form::Field: v = expr_field(c, e); break;
-    case Expr::Form::Select: v = expr_select(c, e, 0); break;
-    case Expr::Form::Array: v = expr_array(c, e); break;
-    case Expr::Form::Error: break;
+    case Expr::Form::Binary:
+      v = expr_binary(c, e);
+      break;
+    case Expr::Form::Chain:
+      v = expr_chain(c, e);
+      break;
+    case Expr::Form::Call:
+      v = expr_call(c, e);
+      break;
+    case Expr::Form::Convert:
+      v = expr_convert(c, e);
+      break;
+    case Expr::Form::Index:
+      v = expr_index(c, e);
+      break;
+    case Expr::Form::Field:
+      v = expr_field(c, e);
+      break;
+    case Expr::Form::Select:
+      v = expr_select(c, e, 0);
+      break;
+    case Expr::Form::Array:
+      v = expr_array(c, e);
+      break;
+    case Expr::Form::Error:
+      break;
   }
   line_ = outer;
   return v;
@@ -111,7 +140,8 @@ Value Elaborator::expr_name(Context c, const Expr& e) {
       const std::vector<std::string>& members = types_[t->type].members;
       const auto it = std::find(members.begin(), members.end(), e.path.back().text);
       if (it == members.end()) {
-        Diagnostic& d = diagnostics_.add(Diag::NoField, e.path.back().span, types_[t->type].name, e.path.back().text);
+        Diagnostic& d = diagnostics_.add(Diag::NoField, e.path.back().span, types_[t->type].name,
+                                         e.path.back().text);
         const std::string near = nearest(e.path.back().text, members);
         if (!near.empty()) d.help(fmt::format("did you mean `{}`?", near));
         return {};
@@ -125,15 +155,18 @@ Value Elaborator::expr_name(Context c, const Expr& e) {
     return {};
   }
   switch (b->form) {
-    case Binding::Form::Value: return b->value;
-    case Binding::Form::Constant: return evaluate_constant(*b);
+    case Binding::Form::Value:
+      return b->value;
+    case Binding::Form::Constant:
+      return evaluate_constant(*b);
     case Binding::Form::Functions: {
-      const bool has_plain = std::any_of(b->functions.begin(), b->functions.end(), [](FunctionDecl* d) {
-        return d->function().formals.empty();
-      });
+      const bool has_plain =
+          std::any_of(b->functions.begin(), b->functions.end(),
+                      [](FunctionDecl* d) { return d->function().formals.empty(); });
       if (has_plain) return call_named(c, e.path, {}, e.span);
       diagnostics_.add(Diag::FunctionNotValue, e.span, e.path.back().text)
-          .help(fmt::format("call it, `{0}(...)`, or write `#{0}` for the function itself", e.path.back().text));
+          .help(fmt::format("call it, `{0}(...)`, or write `#{0}` for the function itself",
+                            e.path.back().text));
       return {};
     }
     case Binding::Form::Type:
@@ -272,7 +305,9 @@ Value Elaborator::array_of(std::vector<Value> parts, const std::vector<Span>& sp
     const TypeId joined = types_.join(type, parts[i].type);
     if (joined == TypeTable::kPoison) {
       if (type != TypeTable::kPoison && !parts[i].poison())
-        diagnostics_.add(Diag::TypeMismatch, i < spans.size() ? spans[i] : Span{}, types_.spell(type), spell(parts[i]))
+        diagnostics_
+            .add(Diag::TypeMismatch, i < spans.size() ? spans[i] : Span{}, types_.spell(type),
+                 spell(parts[i]))
             .help("the elements of an array have one type");
       return {};
     }
@@ -330,7 +365,8 @@ Value Elaborator::index(const Value& array, const Value& i, Span span) {
   // Known only at run time: a choice; outside the array the nearest end is taken.
   Value v = array.parts.back();
   for (std::int64_t k = size - 2; k >= 0; --k)
-    v = choose(node(Op::LeI, {i.refs[0], integer(k)}), array.parts[static_cast<std::size_t>(k)], v, span);
+    v = choose(node(Op::LeI, {i.refs[0], integer(k)}), array.parts[static_cast<std::size_t>(k)], v,
+               span);
   return v;
 }
 
@@ -370,7 +406,8 @@ Value Elaborator::expr_convert(Context c, const Expr& e) {
   for (const BoundArgument& a : args)
     if (a.value.poison()) return {};
   if (to == kComplex && args.size() == 2) {
-    const Value re = convert(args[0].value, kReal, args[0].span), im = convert(args[1].value, kReal, args[1].span);
+    const Value re = convert(args[0].value, kReal, args[0].span),
+                im = convert(args[1].value, kReal, args[1].span);
     if (re.poison() || im.poison()) return {};
     return {kComplex, {re.refs[0], im.refs[0]}, {}, {}, {}, {}};
   }
@@ -385,8 +422,10 @@ Value Elaborator::expr_convert(Context c, const Expr& e) {
   if (to == kReal && enumerated) return scalar(kReal, node(Op::RealOfInt, {v.refs[0]}));
   if (to == kInt && v.type == kReal) return scalar(kInt, node(Op::IntOfReal, {v.refs[0]}));
   if (v.type == kLogic && (to == kInt || to == kReal)) {
-    const Value one = scalar(to, to == kInt ? integer(1) : real(1)), none = scalar(to, to == kInt ? integer(0) : real(0));
-    return scalar(to, node(to == kInt ? Op::SelectI : Op::SelectR, {v.refs[0], one.refs[0], none.refs[0]}));
+    const Value one = scalar(to, to == kInt ? integer(1) : real(1)),
+                none = scalar(to, to == kInt ? integer(0) : real(0));
+    return scalar(
+        to, node(to == kInt ? Op::SelectI : Op::SelectR, {v.refs[0], one.refs[0], none.refs[0]}));
   }
   diagnostics_.add(Diag::NoConversion, e.span, spell(v), types_.spell(to));
   return {};

@@ -10,7 +10,8 @@
 namespace mms::lang {
 
 Scope* Elaborator::new_scope(Scope* parent, bool library) {
-  scopes_.push_back({parent, library || (parent && parent->library && parent != library_scope_), {}});
+  scopes_.push_back(
+      {parent, library || (parent && parent->library && parent != library_scope_), {}});
   return &scopes_.back();
 }
 
@@ -53,7 +54,9 @@ void Elaborator::declare_type(Context c, const TypeDefinition& t) {
   Binding b;
   b.form = Binding::Form::Type;
   switch (t.form) {
-    case TypeDefinition::Form::Alias: b.type = resolve_type(c, t.type, nullptr); break;
+    case TypeDefinition::Form::Alias:
+      b.type = resolve_type(c, t.type, nullptr);
+      break;
     case TypeDefinition::Form::Enum: {
       Type e{Type::Form::Enum, 0, {}, t.name.text, {}};
       for (const Name& n : t.enumerators) e.members.push_back(n.text);
@@ -119,7 +122,8 @@ void Elaborator::unknown_name(Context c, const Path& path, Diag id) {
   const bool variable =
       std::any_of(vm::kVariables.begin(), vm::kVariables.end(),
                   [&](const vm::VariableInfo& v) { return v.name == path.back().text; });
-  if (variable) d.help(fmt::format("what the renderer knows of the hit is written `${}`", path.back().text));
+  if (variable)
+    d.help(fmt::format("what the renderer knows of the hit is written `${}`", path.back().text));
 }
 
 int Elaborator::resolve_dim(Context c, const TypeExpr::Dim& d, const Generics* generics) {
@@ -157,7 +161,8 @@ int Elaborator::resolve_dim(Context c, const TypeExpr::Dim& d, const Generics* g
 TypeId Elaborator::resolve_type(Context c, TypeHandle h, const Generics* generics) {
   const TypeExpr& t = (*c.graph)[h];
   switch (t.form) {
-    case TypeExpr::Form::Basic: return types_.basic(t.basic);
+    case TypeExpr::Form::Basic:
+      return types_.basic(t.basic);
     case TypeExpr::Form::Generic:
     case TypeExpr::Form::Named: {
       if (generics && t.path.size() == 1) {
@@ -211,7 +216,8 @@ bool Elaborator::unify_dim(Context c, const TypeExpr::Dim& d, int size, Generics
   if (d.form == Form::Named) {
     Binding* b = find(c, d.path);
     if (b && (b->form == Binding::Form::Constant || b->form == Binding::Form::Value)) {
-      const auto n = known_integer(b->form == Binding::Form::Constant ? evaluate_constant(*b) : b->value);
+      const auto n =
+          known_integer(b->form == Binding::Form::Constant ? evaluate_constant(*b) : b->value);
       return n && *n == size;
     }
   }
@@ -223,7 +229,8 @@ bool Elaborator::unify_dim(Context c, const TypeExpr::Dim& d, int size, Generics
 void Elaborator::collect_generics(Context c, TypeHandle h, Generics& g) {
   const TypeExpr& t = (*c.graph)[h];
   if (t.form == TypeExpr::Form::Generic) g.names.insert(t.path[0].text);
-  if (t.form == TypeExpr::Form::Array || t.form == TypeExpr::Form::Function) collect_generics(c, t.element, g);
+  if (t.form == TypeExpr::Form::Array || t.form == TypeExpr::Form::Function)
+    collect_generics(c, t.element, g);
   for (TypeHandle f : t.formals) collect_generics(c, f, g);
 }
 

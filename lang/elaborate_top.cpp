@@ -92,7 +92,8 @@ void Elaborator::load_library() {
 }
 
 void Elaborator::load_module(const Library::Module& m) {
-  graphs_.push_back(parse(make_source(fmt::format("<{}>", m.name), std::string(m.text)), diagnostics_));
+  graphs_.push_back(
+      parse(make_source(fmt::format("<{}>", m.name), std::string(m.text)), diagnostics_));
   const Graph& graph = graphs_.back();
   declare_items(graph, library_scope_);
   Scope*& scope = modules_[std::string(m.name)];
@@ -159,7 +160,8 @@ void Elaborator::add_params(const Graph& graph, Scope* scope) {
     b.graph = &graph;
     b.scope = scope;
     b.expr = p.value;
-    b.type = resolve_type({&graph, scope}, p.type, nullptr);  // a replaced value is in another graph
+    b.type =
+        resolve_type({&graph, scope}, p.type, nullptr);  // a replaced value is in another graph
     for (const auto& [name, text] : options_.params) {
       if (name != p.name.text) continue;
       graphs_.push_back(parse_expression(make_source("--param " + name, text), diagnostics_));
@@ -198,10 +200,13 @@ void Elaborator::describe_param(const Graph& graph, const Param& p, Scope* scope
   }
   for (const Param::Meta& m : p.meta) {
     const Value text = expr(c, m.value);
-    std::string* slot = m.key.text == "label" ? &info.label : m.key.text == "unit" ? &info.unit
-                      : m.key.text == "page"  ? &info.page  : nullptr;
+    std::string* slot = m.key.text == "label"  ? &info.label
+                        : m.key.text == "unit" ? &info.unit
+                        : m.key.text == "page" ? &info.page
+                                               : nullptr;
     if (!slot) {
-      diagnostics_.add(Diag::UnknownMeta, m.key.span, m.key.text).help("there are `label`, `unit` and `page`");
+      diagnostics_.add(Diag::UnknownMeta, m.key.span, m.key.text)
+          .help("there are `label`, `unit` and `page`");
       continue;
     }
     *slot = convert(text, TypeTable::kString, graph[m.value].span).text;
@@ -213,8 +218,9 @@ void Elaborator::add_aliases(const Graph& graph, Scope* scope) {
   for (const Alias& a : graph.aliases) {
     Binding* b = find({&graph, scope}, a.inside);
     if (!b) {
-      const bool is_descriptor = std::any_of(graph.descriptors.begin(), graph.descriptors.end(),
-                                             [&](const Descriptor& d) { return d.name.text == a.inside[0].text; });
+      const bool is_descriptor =
+          std::any_of(graph.descriptors.begin(), graph.descriptors.end(),
+                      [&](const Descriptor& d) { return d.name.text == a.inside[0].text; });
       if (!is_descriptor) unknown_name({&graph, scope}, a.inside, Diag::UnknownName);
       continue;
     }
@@ -270,7 +276,8 @@ void Elaborator::check_function(FunctionDecl* d) {
 void Elaborator::check_constant(const Graph& graph, const Constant& k, Scope* scope) {
   function_ = new_function("const " + k.name.text);
   Binding* b = find(scope, k.name.text);
-  if (b && b->form == Binding::Form::Constant && b->graph == &graph) export_value(k.name.text, evaluate_constant(*b));
+  if (b && b->form == Binding::Form::Constant && b->graph == &graph)
+    export_value(k.name.text, evaluate_constant(*b));
 }
 
 /// Makes the current function, whose value is `v`, visible from outside.
@@ -286,8 +293,10 @@ void Elaborator::export_value(const std::string& name, const Value& v) {
 void Elaborator::descriptor(const Graph& graph, const Descriptor& d, Scope* scope) {
   for (const ElaboratedDescriptor& other : descriptors)
     if (other.syntax->form == d.form && other.syntax->name.text == d.name.text)
-      diagnostics_.add(Diag::Redefined, d.name.span, d.name.text).note(other.syntax->name.span, "first defined here");
-  function_ = new_function((d.form == Descriptor::Form::Surface ? "surface " : "volume ") + d.name.text);
+      diagnostics_.add(Diag::Redefined, d.name.span, d.name.text)
+          .note(other.syntax->name.span, "first defined here");
+  function_ =
+      new_function((d.form == Descriptor::Form::Surface ? "surface " : "volume ") + d.name.text);
   ElaboratedDescriptor e;
   e.syntax = &d;
   e.graph = &graph;
@@ -309,11 +318,15 @@ void Elaborator::outputs(ElaboratedDescriptor& e, Scope* scope) {
   };
   auto default_value = [&](Output o) -> Value {
     switch (kOutputRows[static_cast<std::size_t>(o)].shape) {
-      case OutputRow::Shape::Material: return call_library(surface ? "matte" : "isotropic", {}, d.name.span);
+      case OutputRow::Shape::Material:
+        return call_library(surface ? "matte" : "isotropic", {}, d.name.span);
       case OutputRow::Shape::Spectrum:
-        return widen(scalar(TypeTable::kReal, real(surface && o == Output::Scattering ? 1 : 0)), TypeTable::kSpectrum);
-      case OutputRow::Shape::Real: return scalar(TypeTable::kReal, real(0));
-      case OutputRow::Shape::Real2: break;
+        return widen(scalar(TypeTable::kReal, real(surface && o == Output::Scattering ? 1 : 0)),
+                     TypeTable::kSpectrum);
+      case OutputRow::Shape::Real:
+        return scalar(TypeTable::kReal, real(0));
+      case OutputRow::Shape::Real2:
+        break;
     }
     Value zero;
     zero.type = types_.array(TypeTable::kReal, 2);
@@ -333,7 +346,8 @@ void Elaborator::outputs(ElaboratedDescriptor& e, Scope* scope) {
     if (v.material && v.material->size() > vm::limits::kLobes)
       diagnostics_.add(Diag::TooManyLobes, a->name.span, v.material->size(), vm::limits::kLobes);
   }
-  const std::size_t height = static_cast<std::size_t>(Output::Height), gradient = static_cast<std::size_t>(Output::Gradient);
+  const std::size_t height = static_cast<std::size_t>(Output::Height),
+                    gradient = static_cast<std::size_t>(Output::Gradient);
   if (e.stated[height] && !e.stated[gradient] && !diagnostics_.has_errors()) {
     e.outputs[gradient] = derive_gradient(e.outputs[height], assignment("height")->name.span);
     e.stated[gradient] = true;
@@ -346,7 +360,8 @@ void Elaborator::run(std::span<const Graph> graphs) {
   function_ = new_function("params");
   for (const Graph& g : graphs) add_graph(g, program_scope_);
   for (const auto& [name, text] : options_.params) {
-    const bool there = std::any_of(params.begin(), params.end(), [&](const ParamInfo& p) { return p.name == name; });
+    const bool there = std::any_of(params.begin(), params.end(),
+                                   [&](const ParamInfo& p) { return p.name == name; });
     if (there) continue;
     std::vector<std::string> names;
     for (const ParamInfo& p : params) names.push_back(p.name);

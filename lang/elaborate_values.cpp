@@ -14,21 +14,27 @@ namespace {
 using vm::Op;
 using vm::SlotType;
 
-constexpr TypeId kInt = TypeTable::kInteger, kReal = TypeTable::kReal, kComplex = TypeTable::kComplex,
-                 kSpec = TypeTable::kSpectrum, kLogic = TypeTable::kLogic, kMat = TypeTable::kMaterial;
+constexpr TypeId kInt = TypeTable::kInteger, kReal = TypeTable::kReal,
+                 kComplex = TypeTable::kComplex, kSpec = TypeTable::kSpectrum,
+                 kLogic = TypeTable::kLogic, kMat = TypeTable::kMaterial;
 
 /// The instruction of an arithmetic operator on one slot type.
 std::optional<Op> machine_op(Operator op, TypeId type) {
   const bool s = type == kSpec, i = type == kInt;
   switch (op) {
-    case Operator::Add: return s ? Op::AddS : i ? Op::AddI : Op::AddR;
-    case Operator::Sub: return s ? Op::SubS : i ? Op::SubI : Op::SubR;
-    case Operator::Mul: return s ? Op::MulS : i ? Op::MulI : Op::MulR;
-    case Operator::Div: return s ? Op::DivS : Op::DivR;
+    case Operator::Add:
+      return s ? Op::AddS : i ? Op::AddI : Op::AddR;
+    case Operator::Sub:
+      return s ? Op::SubS : i ? Op::SubI : Op::SubR;
+    case Operator::Mul:
+      return s ? Op::MulS : i ? Op::MulI : Op::MulR;
+    case Operator::Div:
+      return s ? Op::DivS : Op::DivR;
     case Operator::Mod:
       if (s) return std::nullopt;
       return i ? Op::ModI : Op::ModR;
-    default: return std::nullopt;
+    default:
+      return std::nullopt;
   }
 }
 
@@ -41,8 +47,9 @@ Ref Elaborator::node(Op op, std::vector<Ref> args, std::uint32_t a, std::uint32_
   if (f.nodes.size() >= static_cast<std::size_t>(vm::limits::kNodes) && !full_) {
     full_ = true;
     diagnostics_.add(Diag::TooManyNodes, Span{}, vm::limits::kNodes)
-        .help("a recursion whose end is known at link time is unrolled: make it shorter, or let its "
-              "end depend on the hit");
+        .help(
+            "a recursion whose end is known at link time is unrolled: make it shorter, or let its "
+            "end depend on the hit");
   }
   std::optional<vm::Constant> folded;
   std::vector<vm::Constant> values;
@@ -65,7 +72,8 @@ Ref Elaborator::node(Op op, std::vector<Ref> args, std::uint32_t a, std::uint32_
 
 Ref Elaborator::constant(vm::Constant c) {
   const std::uint32_t k = module.constant(c);
-  const Ref r = add_node(module.functions[function_], function_, {Op::PushConst, k, 0, {}, {c.type}, line_, -1});
+  const Ref r = add_node(module.functions[function_], function_,
+                         {Op::PushConst, k, 0, {}, {c.type}, line_, -1});
   module.functions[function_].nodes[r.node].known = static_cast<std::int32_t>(k);
   return r;
 }
@@ -78,10 +86,14 @@ Ref Elaborator::logic(bool v) { return constant({SlotType::Logic, 0, 0, v ? 1 : 
 
 Ref Elaborator::zero(SlotType t) {
   switch (t) {
-    case SlotType::Integer: return integer(0);
-    case SlotType::Logic: return logic(false);
-    case SlotType::Spectrum: return node(Op::Splat, {real(0)});
-    default: return real(0);
+    case SlotType::Integer:
+      return integer(0);
+    case SlotType::Logic:
+      return logic(false);
+    case SlotType::Spectrum:
+      return node(Op::Splat, {real(0)});
+    default:
+      return real(0);
   }
 }
 
@@ -103,7 +115,8 @@ Ref Elaborator::localise(Ref r) {
   Instance& inst = *it->second;
   for (std::size_t k = 0; k < inst.captures.size(); ++k)
     if (inst.captures[k] == r)
-      return node(Op::LoadLocal, {}, static_cast<std::uint32_t>(inst.own_params + k), 0, {from.results[r.result]});
+      return node(Op::LoadLocal, {}, static_cast<std::uint32_t>(inst.own_params + k), 0,
+                  {from.results[r.result]});
   inst.captures.push_back(r);
   IrFunction& f = module.functions[function_];
   f.params.push_back(from.results[r.result]);
@@ -166,12 +179,22 @@ void Elaborator::slot_types(TypeId type, std::vector<SlotType>& out) const {
     case Type::Form::Struct:
       for (TypeId p : t.parts) slot_types(p, out);
       break;
-    case Type::Form::Complex: out.insert(out.end(), 2, SlotType::Real); break;
-    case Type::Form::Spectrum: out.push_back(SlotType::Spectrum); break;
+    case Type::Form::Complex:
+      out.insert(out.end(), 2, SlotType::Real);
+      break;
+    case Type::Form::Spectrum:
+      out.push_back(SlotType::Spectrum);
+      break;
     case Type::Form::Integer:
-    case Type::Form::Enum: out.push_back(SlotType::Integer); break;
-    case Type::Form::Logic: out.push_back(SlotType::Logic); break;
-    default: out.push_back(SlotType::Real); break;
+    case Type::Form::Enum:
+      out.push_back(SlotType::Integer);
+      break;
+    case Type::Form::Logic:
+      out.push_back(SlotType::Logic);
+      break;
+    default:
+      out.push_back(SlotType::Real);
+      break;
   }
 }
 
@@ -203,8 +226,10 @@ Value Elaborator::convert(const Value& v, TypeId to, Span span, Span why) {
   if (why) d.note(why, "the type is stated here");
   if (TypeTable::is_number(v.type) && (to == kInt || to == kReal))
     d.help(fmt::format("write `{}(...)` to convert it", types_.spell(to)));
-  if (v.type == kReal && to == kMat) d.help("a material is made by a function, for example `matte(0.5)`");
-  if (v.type == kSpec && to == kMat) d.help("a colour alone is no material: write `matte(...)` around it");
+  if (v.type == kReal && to == kMat)
+    d.help("a material is made by a function, for example `matte(0.5)`");
+  if (v.type == kSpec && to == kMat)
+    d.help("a colour alone is no material: write `matte(...)` around it");
   return {};
 }
 
@@ -217,7 +242,8 @@ Value Elaborator::choose_refs(Ref condition, const Value& a, const Value& b) {
   const std::size_t count = results.size();
   const Ref r = node(Op::If, std::move(args), 0, 0, std::move(results));
   std::vector<Ref> refs;
-  for (std::size_t k = 0; k < count; ++k) refs.push_back({r.node, static_cast<std::uint16_t>(k), r.function});
+  for (std::size_t k = 0; k < count; ++k)
+    refs.push_back({r.node, static_cast<std::uint16_t>(k), r.function});
   std::size_t next = 0;
   return unflatten(a.type, refs, next);
 }
@@ -312,7 +338,9 @@ MaterialPtr Elaborator::choose_material(Ref condition, const MaterialPtr& a, con
   args.insert(args.end(), second.begin(), second.end());
   const std::size_t weight = results.size() - 1;
   const Ref r = node(Op::If, std::move(args), 0, 0, std::move(results));
-  auto result = [&](std::size_t k) { return Ref{r.node, static_cast<std::uint16_t>(k), r.function}; };
+  auto result = [&](std::size_t k) {
+    return Ref{r.node, static_cast<std::uint16_t>(k), r.function};
+  };
   for (std::size_t i = 0; i < ra.size(); ++i)
     if (from_a[i] >= 0) ra[i] = result(static_cast<std::size_t>(from_a[i]));
   for (std::size_t i = 0; i < rb.size(); ++i)
@@ -332,9 +360,11 @@ MaterialPtr Elaborator::choose_material(Ref condition, const MaterialPtr& a, con
 Value Elaborator::bad_operands(Operator op, const Value& a, const Value& b, Span span) {
   if (a.poison() || b.poison()) return {};
   Diagnostic& d = diagnostics_.add(Diag::BadOperands, span, spelling(op), spell(a), spell(b));
-  if (types_.is_array(a.type) && types_.is_array(b.type) && types_[a.type].size != types_[b.type].size)
+  if (types_.is_array(a.type) && types_.is_array(b.type) &&
+      types_[a.type].size != types_[b.type].size)
     d.help("arrays combine element by element: their sizes must agree");
-  if (a.type == kLogic || b.type == kLogic) d.help("logic values combine with `and`, `or`, `not` and `select`");
+  if (a.type == kLogic || b.type == kLogic)
+    d.help("logic values combine with `and`, `or`, `not` and `select`");
   if (types_.is_function(a.type) || types_.is_function(b.type)) d.help("call the function first");
   return {};
 }
@@ -342,14 +372,17 @@ Value Elaborator::bad_operands(Operator op, const Value& a, const Value& b, Span
 Value Elaborator::binary(Operator op, const Value& a, const Value& b, Span span) {
   switch (op) {
     case Operator::And:
-    case Operator::Or: return logical(op, a, b);
+    case Operator::Or:
+      return logical(op, a, b);
     case Operator::Eq:
     case Operator::Ne:
     case Operator::Lt:
     case Operator::Gt:
     case Operator::Le:
-    case Operator::Ge: return compare(op, a, b, span);
-    default: return arithmetic(op, a, b, span);
+    case Operator::Ge:
+      return compare(op, a, b, span);
+    default:
+      return arithmetic(op, a, b, span);
   }
 }
 
@@ -370,11 +403,13 @@ Value Elaborator::arithmetic(Operator op, const Value& a, const Value& b, Span s
   }
   if (a.type == kMat || b.type == kMat) {
     if (op == Operator::Add && a.type == b.type) return call_library("add", {a, b}, span);
-    if (op == Operator::Mul && a.type != b.type && TypeTable::is_number(a.type == kMat ? b.type : a.type))
+    if (op == Operator::Mul && a.type != b.type &&
+        TypeTable::is_number(a.type == kMat ? b.type : a.type))
       return call_library("scale", {a.type == kMat ? a : b, a.type == kMat ? b : a}, span);
     return bad_operands(op, a, b, span);
   }
-  if (!TypeTable::is_number(a.type) || !TypeTable::is_number(b.type)) return bad_operands(op, a, b, span);
+  if (!TypeTable::is_number(a.type) || !TypeTable::is_number(b.type))
+    return bad_operands(op, a, b, span);
   if (op == Operator::Pow) return power(a, b, span);
   TypeId type = types_.join(a.type, b.type);
   if (type == TypeTable::kPoison) return bad_operands(op, a, b, span);
@@ -393,13 +428,17 @@ Value Elaborator::complex_arithmetic(Operator op, const Value& a, const Value& b
   const Ref ar = a.refs[0], ai = a.refs[1], br = b.refs[0], bi = b.refs[1];
   auto make = [&](Ref re, Ref im) { return Value{kComplex, {re, im}, {}, {}, {}, {}}; };
   switch (op) {
-    case Operator::Add: return make(node(Op::AddR, {ar, br}), node(Op::AddR, {ai, bi}));
-    case Operator::Sub: return make(node(Op::SubR, {ar, br}), node(Op::SubR, {ai, bi}));
+    case Operator::Add:
+      return make(node(Op::AddR, {ar, br}), node(Op::AddR, {ai, bi}));
+    case Operator::Sub:
+      return make(node(Op::SubR, {ar, br}), node(Op::SubR, {ai, bi}));
     case Operator::Mul:
       return make(node(Op::SubR, {node(Op::MulR, {ar, br}), node(Op::MulR, {ai, bi})}),
                   node(Op::AddR, {node(Op::MulR, {ar, bi}), node(Op::MulR, {ai, br})}));
-    case Operator::Div: return call_library("complex_divide", {a, b}, span);
-    default: return bad_operands(op, a, b, span);
+    case Operator::Div:
+      return call_library("complex_divide", {a, b}, span);
+    default:
+      return bad_operands(op, a, b, span);
   }
 }
 
@@ -416,7 +455,8 @@ Value Elaborator::power(const Value& a, const Value& b, Span span) {
   const auto n = known_integer(b);
   if (n && *n >= 1 && *n <= kLargest)
     return repeated_square(a.type == kInt ? widen(a, kReal) : a, *n, span);
-  if (a.type == kComplex || b.type == kComplex) return call_library("pow", {widen(a, kComplex), widen(b, kComplex)}, span);
+  if (a.type == kComplex || b.type == kComplex)
+    return call_library("pow", {widen(a, kComplex), widen(b, kComplex)}, span);
   if (b.type == kInt && a.type != kSpec)
     return call_library("powi", {a.type == kInt ? widen(a, kReal) : a, b}, span);
   if (a.type == kInt || b.type == kInt)
@@ -432,9 +472,15 @@ Value Elaborator::equal(const Value& a, const Value& b) {
   for (std::size_t i = 0; i < ra.size(); ++i) {
     Ref one;
     switch (slot_type(ra[i])) {
-      case SlotType::Integer: one = node(Op::EqI, {ra[i], rb[i]}); break;
-      case SlotType::Logic: one = node(Op::SelectL, {ra[i], rb[i], node(Op::Not, {rb[i]})}); break;
-      default: one = node(Op::EqR, {ra[i], rb[i]}); break;
+      case SlotType::Integer:
+        one = node(Op::EqI, {ra[i], rb[i]});
+        break;
+      case SlotType::Logic:
+        one = node(Op::SelectL, {ra[i], rb[i], node(Op::Not, {rb[i]})});
+        break;
+      default:
+        one = node(Op::EqR, {ra[i], rb[i]});
+        break;
     }
     all = all ? node(Op::And, {*all, one}) : one;
   }
@@ -473,11 +519,17 @@ Value Elaborator::negate(const Value& a, Span span) {
     return r;
   }
   switch (a.type) {
-    case kInt: return scalar(kInt, node(Op::NegI, {a.refs[0]}));
-    case kReal: return scalar(kReal, node(Op::NegR, {a.refs[0]}));
-    case kSpec: return scalar(kSpec, node(Op::NegS, {a.refs[0]}));
-    case kComplex: return {kComplex, {node(Op::NegR, {a.refs[0]}), node(Op::NegR, {a.refs[1]})}, {}, {}, {}, {}};
-    default: diagnostics_.add(Diag::BadOperand, span, "-", spell(a)); return {};
+    case kInt:
+      return scalar(kInt, node(Op::NegI, {a.refs[0]}));
+    case kReal:
+      return scalar(kReal, node(Op::NegR, {a.refs[0]}));
+    case kSpec:
+      return scalar(kSpec, node(Op::NegS, {a.refs[0]}));
+    case kComplex:
+      return {kComplex, {node(Op::NegR, {a.refs[0]}), node(Op::NegR, {a.refs[1]})}, {}, {}, {}, {}};
+    default:
+      diagnostics_.add(Diag::BadOperand, span, "-", spell(a));
+      return {};
   }
 }
 
@@ -504,7 +556,9 @@ Value Elaborator::fused(const Value& a, const Value& b, const Value& c, Span spa
       size = v->parts.size();
     }
     std::vector<Value> parts;
-    auto part = [&](const Value& v, std::size_t i) { return types_.is_array(v.type) ? v.parts[i] : v; };
+    auto part = [&](const Value& v, std::size_t i) {
+      return types_.is_array(v.type) ? v.parts[i] : v;
+    };
     for (std::size_t i = 0; i < size; ++i) {
       parts.push_back(fused(part(a, i), part(b, i), part(c, i), span));
       if (parts.back().poison()) return {};
@@ -515,8 +569,9 @@ Value Elaborator::fused(const Value& a, const Value& b, const Value& c, Span spa
   // A real product added to a spectrum is formed once, as a real.
   if (type == kSpec && types_.join(a.type, b.type) != kSpec)
     return arithmetic(Operator::Add, arithmetic(Operator::Mul, a, b, span), c, span);
-  return scalar(type, node(type == kSpec ? Op::FmaS : Op::FmaR,
-                           {widen(a, type).refs[0], widen(b, type).refs[0], widen(c, type).refs[0]}));
+  return scalar(type,
+                node(type == kSpec ? Op::FmaS : Op::FmaR,
+                     {widen(a, type).refs[0], widen(b, type).refs[0], widen(c, type).refs[0]}));
 }
 
 }  // namespace mms::lang

@@ -73,7 +73,7 @@ class Elaborator {
     std::set<std::string> names;  ///< of every `generic T` in the formals, bound yet or not
   };
   struct Match {
-    int cost = -1;  ///< -1: does not fit
+    int cost = -1;              ///< -1: does not fit
     std::vector<int> argument;  ///< for each formal the argument's index, or -1: the default
     Generics generics;
     std::string why;  ///< where it does not fit
@@ -96,8 +96,8 @@ class Elaborator {
   };
   struct Frame {
     FunctionDecl* decl;
-    int dynamic;        ///< `dynamic_` when the frame was entered
-    bool instance;      ///< its body is being compiled as a function of the machine
+    int dynamic;              ///< `dynamic_` when the frame was entered
+    bool instance;            ///< its body is being compiled as a function of the machine
     std::size_t inlined = 0;  ///< `inlined_` when the frame was entered
   };
   struct Recursion {  ///< thrown to turn the frame at `depth` into a function of the machine
@@ -183,7 +183,8 @@ class Elaborator {
                         std::vector<BoundArgument>& args, Span span);
   Match match(const Candidate& k, const std::vector<BoundArgument>& args);
   bool bind_formals(const Function& f, const std::vector<BoundArgument>& args, Match& m);
-  Value call_builtin(const vm::Builtin* row, const Match& m, std::vector<BoundArgument>& args, Span span);
+  Value call_builtin(const vm::Builtin* row, const Match& m, std::vector<BoundArgument>& args,
+                     Span span);
   Value call_spectral(const vm::Builtin* row, const std::vector<Value>& values, Span span);
   Value make_material(const vm::Builtin* row, const std::vector<Value>& values);
   Value call_script(FunctionDecl* d, const Match& m, std::vector<BoundArgument>& args, Span span);
@@ -192,8 +193,10 @@ class Elaborator {
   Value call_function_value(const Value& f, std::vector<BoundArgument> args, Span span);
   Value call_lambda(const FunctionValue& f, std::vector<BoundArgument>& args, Span span);
   Value construct(TypeId type, std::vector<BoundArgument>& args, Span span);
-  Value invoke(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g, TypeId result, Span span);
-  Value inline_body(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g, TypeId result);
+  Value invoke(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g, TypeId result,
+               Span span);
+  Value inline_body(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g,
+                    TypeId result);
   Value call_instance(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g,
                       TypeId result, Span span);
   Ref call_site(Instance& instance, const std::vector<Ref>& args);
@@ -243,7 +246,7 @@ class Elaborator {
   std::map<std::uint16_t, Instance*> instance_of_;
   std::map<const Source*, std::uint32_t> source_index_;
   std::map<std::pair<std::uint16_t, int>, std::uint16_t> derived_;  ///< by function and direction
-  Span deriving_;                                   ///< the height that is being differentiated
+  Span deriving_;  ///< the height that is being differentiated
   Scope* library_scope_ = nullptr;
   Scope* program_scope_ = nullptr;
 

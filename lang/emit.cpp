@@ -17,9 +17,13 @@ using vm::SlotType;
 /// use it itself: it is computed in each region that does.
 class FunctionEmitter {
  public:
-  FunctionEmitter(Emitter& parent, const IrFunction& f, std::span<const Ref> results, std::uint16_t number,
-                  vm::Function& out)
-      : parent_(parent), f_(f), results_(results.begin(), results.end()), number_(number), out_(out) {}
+  FunctionEmitter(Emitter& parent, const IrFunction& f, std::span<const Ref> results,
+                  std::uint16_t number, vm::Function& out)
+      : parent_(parent),
+        f_(f),
+        results_(results.begin(), results.end()),
+        number_(number),
+        out_(out) {}
 
   void run();
 
@@ -41,7 +45,10 @@ class FunctionEmitter {
   std::vector<Region> homes(std::uint32_t n) const;
   Region common(Region a, Region b) const;
   bool inside(Region r, Region ancestor) const;
-  bool leaf(std::uint32_t n) const { return f_.nodes[n].args.empty() && f_.nodes[n].op != Op::Call && f_.nodes[n].op != Op::CallBuiltin; }
+  bool leaf(std::uint32_t n) const {
+    return f_.nodes[n].args.empty() && f_.nodes[n].op != Op::Call &&
+           f_.nodes[n].op != Op::CallBuiltin;
+  }
   Placement& placement(std::uint32_t n, Region r);
   std::vector<std::uint32_t> live_order() const;
 
@@ -90,7 +97,8 @@ std::vector<FunctionEmitter::Region> FunctionEmitter::homes(std::uint32_t n) con
   }
   std::vector<Region> outermost;
   for (Region r : uses) {
-    const bool covered = std::any_of(uses.begin(), uses.end(), [&](Region o) { return o != r && inside(r, o); });
+    const bool covered =
+        std::any_of(uses.begin(), uses.end(), [&](Region o) { return o != r && inside(r, o); });
     if (!covered) outermost.push_back(r);
   }
   return outermost;
@@ -150,7 +158,9 @@ void FunctionEmitter::place() {
   const std::vector<std::uint32_t> order = live_order();
   for (std::uint32_t n : order) {
     const Node& node = f_.nodes[n];
-    may_not_end_[n] = node.op == Op::Call || std::any_of(node.args.begin(), node.args.end(), [&](Ref a) { return may_not_end_[a.node]; });
+    may_not_end_[n] =
+        node.op == Op::Call || std::any_of(node.args.begin(), node.args.end(),
+                                           [&](Ref a) { return may_not_end_[a.node]; });
   }
   for (Ref r : results_) {
     uses_[r.node].push_back(0);
@@ -249,7 +259,8 @@ bool FunctionEmitter::is_tail_node(const std::vector<Ref>& values) const {
   const Node& node = f_.nodes[n];
   const bool self_call = node.op == Op::Call && node.a == number_;
   if ((node.op != Op::If && !self_call) || node.results.size() != values.size()) return false;
-  if (use_count_[n] != values.size() * std::max<std::size_t>(placements_[n].size(), 1)) return false;
+  if (use_count_[n] != values.size() * std::max<std::size_t>(placements_[n].size(), 1))
+    return false;
   for (std::size_t k = 0; k < values.size(); ++k)
     if (values[k].node != n || values[k].result != k) return false;
   return true;
@@ -272,8 +283,9 @@ void FunctionEmitter::tail(const std::vector<Ref>& values, Region r) {
   const std::size_t count = first.results.size();
   for (std::size_t arm = 0; arm < 2; ++arm) {
     if (arm) code(Op::Else, first);
-    const std::vector<Ref> inner(first.args.begin() + static_cast<std::ptrdiff_t>(1 + arm * count),
-                                 first.args.begin() + static_cast<std::ptrdiff_t>(1 + (arm + 1) * count));
+    const std::vector<Ref> inner(
+        first.args.begin() + static_cast<std::ptrdiff_t>(1 + arm * count),
+        first.args.begin() + static_cast<std::ptrdiff_t>(1 + (arm + 1) * count));
     std::vector<std::uint32_t>& stored = regions_[p.arms[arm]].stored;
     if (is_tail_node(inner)) std::erase(stored, inner[0].node);
     begin_region(p.arms[arm]);

@@ -41,38 +41,64 @@ vm::Constant logic(std::int32_t v) { return {SlotType::Logic, 0, 0, v}; }
 
 std::optional<vm::Constant> fold(vm::Op op, Args a) {
   switch (op) {
-    case Op::AddR: return real2<Add>(a);
-    case Op::SubR: return real2<Sub>(a);
-    case Op::MulR: return real2<Mul>(a);
-    case Op::DivR: return real2<Div>(a);
-    case Op::ModR: return real2<Mod>(a);
-    case Op::NegR: return real1<Neg>(a);
+    case Op::AddR:
+      return real2<Add>(a);
+    case Op::SubR:
+      return real2<Sub>(a);
+    case Op::MulR:
+      return real2<Mul>(a);
+    case Op::DivR:
+      return real2<Div>(a);
+    case Op::ModR:
+      return real2<Mod>(a);
+    case Op::NegR:
+      return real1<Neg>(a);
     case Op::FmaR:
       return vm::Constant{SlotType::Real, Fma::eval(a[0].f32, a[1].f32, a[2].f32),
                           Fma::eval(a[0].f64, a[1].f64, a[2].f64), 0};
-    case Op::AddI: return integer2<AddWrap>(a);
-    case Op::SubI: return integer2<SubWrap>(a);
-    case Op::MulI: return integer2<MulWrap>(a);
-    case Op::ModI: return integer2<ModFloored>(a);
-    case Op::NegI: return vm::Constant{SlotType::Integer, 0, 0, NegWrap::eval(a[0].integer)};
+    case Op::AddI:
+      return integer2<AddWrap>(a);
+    case Op::SubI:
+      return integer2<SubWrap>(a);
+    case Op::MulI:
+      return integer2<MulWrap>(a);
+    case Op::ModI:
+      return integer2<ModFloored>(a);
+    case Op::NegI:
+      return vm::Constant{SlotType::Integer, 0, 0, NegWrap::eval(a[0].integer)};
     case Op::RealOfInt:
-      return vm::Constant{SlotType::Real, ToReal<float>::eval(a[0].integer), ToReal<double>::eval(a[0].integer), 0};
-    case Op::IntOfReal: return vm::Constant{SlotType::Integer, 0, 0, Truncate::eval(a[0].f32)};
-    case Op::LtR: return real_logic<Lt>(a);
-    case Op::LeR: return real_logic<Le>(a);
-    case Op::EqR: return real_logic<Eq>(a);
-    case Op::NeR: return real_logic<Ne>(a);
-    case Op::LtI: return integer_logic<Lt>(a);
-    case Op::LeI: return integer_logic<Le>(a);
-    case Op::EqI: return integer_logic<Eq>(a);
-    case Op::NeI: return integer_logic<Ne>(a);
-    case Op::And: return logic(And::eval(a[0].integer, a[1].integer));
-    case Op::Or: return logic(Or::eval(a[0].integer, a[1].integer));
-    case Op::Not: return logic(Not::eval(a[0].integer));
+      return vm::Constant{SlotType::Real, ToReal<float>::eval(a[0].integer),
+                          ToReal<double>::eval(a[0].integer), 0};
+    case Op::IntOfReal:
+      return vm::Constant{SlotType::Integer, 0, 0, Truncate::eval(a[0].f32)};
+    case Op::LtR:
+      return real_logic<Lt>(a);
+    case Op::LeR:
+      return real_logic<Le>(a);
+    case Op::EqR:
+      return real_logic<Eq>(a);
+    case Op::NeR:
+      return real_logic<Ne>(a);
+    case Op::LtI:
+      return integer_logic<Lt>(a);
+    case Op::LeI:
+      return integer_logic<Le>(a);
+    case Op::EqI:
+      return integer_logic<Eq>(a);
+    case Op::NeI:
+      return integer_logic<Ne>(a);
+    case Op::And:
+      return logic(And::eval(a[0].integer, a[1].integer));
+    case Op::Or:
+      return logic(Or::eval(a[0].integer, a[1].integer));
+    case Op::Not:
+      return logic(Not::eval(a[0].integer));
     case Op::SelectR:
     case Op::SelectI:
-    case Op::SelectL: return a[0].integer ? a[1] : a[2];
-    default: return std::nullopt;
+    case Op::SelectL:
+      return a[0].integer ? a[1] : a[2];
+    default:
+      return std::nullopt;
   }
 }
 
@@ -102,8 +128,10 @@ vm::Constant fold_builtin(const vm::Builtin& row, SlotType result, Args args) {
     }
   };
   // Integer results come from the float kernel, which runs last.
-  run(row.f64, +[](const vm::Constant& c) { return c.f64; }, out.f64);
-  run(row.f32, +[](const vm::Constant& c) { return c.f32; }, out.f32);
+  run(
+      row.f64, +[](const vm::Constant& c) { return c.f64; }, out.f64);
+  run(
+      row.f32, +[](const vm::Constant& c) { return c.f32; }, out.f32);
   return out;
 }
 

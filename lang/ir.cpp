@@ -10,16 +10,21 @@ namespace {
 
 vm::SlotType type_of(char letter) {
   switch (letter) {
-    case 'i': return vm::SlotType::Integer;
-    case 'l': return vm::SlotType::Logic;
-    case 's': return vm::SlotType::Spectrum;
-    default: return vm::SlotType::Real;
+    case 'i':
+      return vm::SlotType::Integer;
+    case 'l':
+      return vm::SlotType::Logic;
+    case 's':
+      return vm::SlotType::Spectrum;
+    default:
+      return vm::SlotType::Real;
   }
 }
 
 /// Equal as bits, so that 0 and -0 stay apart and a NaN is found again.
 bool same(const vm::Constant& a, const vm::Constant& b) {
-  return a.type == b.type && std::bit_cast<std::uint32_t>(a.f32) == std::bit_cast<std::uint32_t>(b.f32) &&
+  return a.type == b.type &&
+         std::bit_cast<std::uint32_t>(a.f32) == std::bit_cast<std::uint32_t>(b.f32) &&
          std::bit_cast<std::uint64_t>(a.f64) == std::bit_cast<std::uint64_t>(b.f64) &&
          a.integer == b.integer;
 }
@@ -65,7 +70,8 @@ std::string dump(const Module& module, const IrFunction& f) {
     out += fmt::format("  %{} = {}", i, vm::info(n.op).name);
     if (n.op == vm::Op::PushConst) {
       const vm::Constant& c = module.constants[n.a];
-      out += c.type == vm::SlotType::Real ? fmt::format(" {}", c.f64) : fmt::format(" {}", c.integer);
+      out +=
+          c.type == vm::SlotType::Real ? fmt::format(" {}", c.f64) : fmt::format(" {}", c.integer);
     } else if (n.op == vm::Op::PushInput) {
       out += fmt::format(" ${}.{}", vm::info(vm::input_variable(n.a)).name, n.a);
     } else if (n.op == vm::Op::CallBuiltin || n.op == vm::Op::CallSpectral) {
@@ -75,11 +81,13 @@ std::string dump(const Module& module, const IrFunction& f) {
     } else if (n.op == vm::Op::LoadLocal) {
       out += fmt::format(" {}", n.a);
     }
-    for (Ref r : n.args) out += fmt::format(" %{}{}", r.node, r.result ? fmt::format(".{}", r.result) : "");
+    for (Ref r : n.args)
+      out += fmt::format(" %{}{}", r.node, r.result ? fmt::format(".{}", r.result) : "");
     out += "\n";
   }
   out += "  return";
-  for (Ref r : f.results) out += fmt::format(" %{}{}", r.node, r.result ? fmt::format(".{}", r.result) : "");
+  for (Ref r : f.results)
+    out += fmt::format(" %{}{}", r.node, r.result ? fmt::format(".{}", r.result) : "");
   return out + "\n";
 }
 
@@ -103,7 +111,8 @@ std::string expected_args(const Module& module, const Node& n) {
       for (int arm = 0; arm < 2; ++arm)
         for (vm::SlotType t : n.results) letters += vm::letter(t);
       return letters;
-    default: return std::string(vm::info(n.op).pops);
+    default:
+      return std::string(vm::info(n.op).pops);
   }
 }
 
@@ -120,8 +129,8 @@ std::string check(const Module& module, const IrFunction& f) {
     }
     const std::string expected = expected_args(module, n);
     if (found != expected)
-      return fmt::format("{}: node %{} ({}) takes `{}`, found `{}`", f.name, i,
-                         vm::info(n.op).name, expected, found);
+      return fmt::format("{}: node %{} ({}) takes `{}`, found `{}`", f.name, i, vm::info(n.op).name,
+                         expected, found);
   }
   for (Ref r : f.results)
     if (r.node >= f.nodes.size() || r.result >= f.nodes[r.node].results.size())

@@ -67,7 +67,8 @@ class EntryBuilder {
     vm::LayoutNode n;
     n.lobe = m.row->lobe;
     for (const auto& c : m.children) n.children.push_back(add(*c, next, l));
-    for (std::size_t k = 0; k < m.params.size(); ++k) n.params.push_back(source(f_.results[next++]));
+    for (std::size_t k = 0; k < m.params.size(); ++k)
+      n.params.push_back(source(f_.results[next++]));
     l.nodes.push_back(std::move(n));
     return static_cast<std::uint32_t>(l.nodes.size() - 1);
   }
@@ -94,7 +95,8 @@ class Dependencies {
       if (!seen.insert(i).second) continue;
       const Node& n = f.nodes[i];
       if (n.known >= 0) continue;
-      if (n.op == Op::PushInput) mask |= 1u << static_cast<int>(vm::input_variable(static_cast<int>(n.a)));
+      if (n.op == Op::PushInput)
+        mask |= 1u << static_cast<int>(vm::input_variable(static_cast<int>(n.a)));
       if (n.op == Op::Call && called_.insert(static_cast<std::uint16_t>(n.a)).second)
         mask |= of(static_cast<std::uint16_t>(n.a), m_.functions[n.a].results);
       for (Ref a : n.args) pending.push_back(a.node);
@@ -109,17 +111,20 @@ class Dependencies {
 };
 
 constexpr std::uint32_t bit(vm::Variable v) { return 1u << static_cast<int>(v); }
-constexpr std::uint32_t kSpectral = bit(vm::Variable::Wavelength) | bit(vm::Variable::RgbRed) | bit(vm::Variable::RgbGreen);
+constexpr std::uint32_t kSpectral =
+    bit(vm::Variable::Wavelength) | bit(vm::Variable::RgbRed) | bit(vm::Variable::RgbGreen);
 
 class ProgramBuilder {
  public:
-  ProgramBuilder(Elaborator& e, Diagnostics& d) : e_(e), diagnostics_(d), emitter_(e.module, program_) {}
+  ProgramBuilder(Elaborator& e, Diagnostics& d)
+      : e_(e), diagnostics_(d), emitter_(e.module, program_) {}
 
   vm::Program build(Level level) {
     std::vector<Outputs> outputs;
     for (ElaboratedDescriptor& d : e_.descriptors) outputs.push_back(gather(d));
     optimise(e_.module, level);
-    for (std::size_t i = 0; i < e_.descriptors.size(); ++i) descriptor(e_.descriptors[i], outputs[i]);
+    for (std::size_t i = 0; i < e_.descriptors.size(); ++i)
+      descriptor(e_.descriptors[i], outputs[i]);
     for (const ElaboratedExport& x : e_.exports) {
       const std::vector<Ref>& results = e_.module.functions[x.function].results;
       program_.exports.push_back({x.name, x.type, emitter_.emit(x.function, results, x.name)});
@@ -147,7 +152,8 @@ class ProgramBuilder {
     return o;
   }
 
-  vm::Entry entry(const ElaboratedDescriptor& d, const Outputs& o, std::initializer_list<Output> wanted, const char* what) {
+  vm::Entry entry(const ElaboratedDescriptor& d, const Outputs& o,
+                  std::initializer_list<Output> wanted, const char* what) {
     const IrFunction& f = e_.module.functions[d.function];
     EntryBuilder b(e_.module, f);
     vm::Entry e;
@@ -155,21 +161,37 @@ class ProgramBuilder {
       std::size_t next = o.of(out).begin;
       auto value = [&] { return b.source(f.results[next++]); };
       switch (out) {
-        case Output::Material: e.material = b.layout(*o.materials[static_cast<int>(out)], next); break;
-        case Output::EmissionMaterial: e.emission_material = b.layout(*o.materials[static_cast<int>(out)], next); break;
-        case Output::Scattering: e.scattering = value(); break;
-        case Output::Absorption: e.absorption = value(); break;
-        case Output::Emission: e.emission = value(); break;
-        case Output::Height: e.height = value(); break;
-        case Output::Bound: e.bound = value(); break;
+        case Output::Material:
+          e.material = b.layout(*o.materials[static_cast<int>(out)], next);
+          break;
+        case Output::EmissionMaterial:
+          e.emission_material = b.layout(*o.materials[static_cast<int>(out)], next);
+          break;
+        case Output::Scattering:
+          e.scattering = value();
+          break;
+        case Output::Absorption:
+          e.absorption = value();
+          break;
+        case Output::Emission:
+          e.emission = value();
+          break;
+        case Output::Height:
+          e.height = value();
+          break;
+        case Output::Bound:
+          e.bound = value();
+          break;
         case Output::Gradient:
           e.gradient[0] = value();
           e.gradient[1] = value();
           break;
-        case Output::Count: break;
+        case Output::Count:
+          break;
       }
     }
-    if (!b.results().empty()) e.function = emitter_.emit(d.function, b.results(), d.syntax->name.text + "." + what);
+    if (!b.results().empty())
+      e.function = emitter_.emit(d.function, b.results(), d.syntax->name.text + "." + what);
     return e;
   }
 
@@ -178,8 +200,10 @@ class ProgramBuilder {
     const bool surface = d.syntax->form == Descriptor::Form::Surface;
     out.form = surface ? vm::DescriptorForm::Surface : vm::DescriptorForm::Volume;
     out.name = d.syntax->name.text;
-    out.shade = entry(d, o, {Output::Scattering, Output::Absorption, Output::Emission, Output::Material,
-                             Output::EmissionMaterial, Output::Gradient}, "shade");
+    out.shade = entry(d, o,
+                      {Output::Scattering, Output::Absorption, Output::Emission, Output::Material,
+                       Output::EmissionMaterial, Output::Gradient},
+                      "shade");
     out.pass = entry(d, o, {Output::Scattering, Output::Absorption}, "pass");
     out.emit = entry(d, o, {Output::Emission, Output::EmissionMaterial}, "emit");
     out.displace = entry(d, o, {Output::Height, Output::Bound}, "displace");
@@ -190,7 +214,8 @@ class ProgramBuilder {
       vm::OutputInfo& info = out.outputs[k];
       depends.reset();
       info.stated = d.stated[k];
-      info.variables = depends.of(d.function, std::span(f.results).subspan(r.begin, r.end - r.begin));
+      info.variables =
+          depends.of(d.function, std::span(f.results).subspan(r.begin, r.end - r.begin));
       info.spectral = (info.variables & kSpectral) != 0;
       info.constant = info.variables == 0;
     }
@@ -211,12 +236,13 @@ class ProgramBuilder {
 
 }  // namespace
 
-std::optional<Linked> link(std::span<const Graph> graphs, const Library& library, const LinkOptions& options,
-                           Diagnostics& diagnostics) {
+std::optional<Linked> link(std::span<const Graph> graphs, const Library& library,
+                           const LinkOptions& options, Diagnostics& diagnostics) {
   if (diagnostics.has_errors()) return std::nullopt;
   for (const Graph& g : graphs) {
     const bool empty = g.descriptors.empty() && g.top_functions.empty() && g.constants.empty() &&
-                       g.type_definitions.empty() && g.params.empty() && g.imports.empty() && g.aliases.empty();
+                       g.type_definitions.empty() && g.params.empty() && g.imports.empty() &&
+                       g.aliases.empty();
     if (empty)
       diagnostics.add(Diag::NothingToLink, Span{g.source.get(), 0, 0})
           .help("begin with `surface grey bsdf = matte(0.5); end`");
@@ -225,8 +251,8 @@ std::optional<Linked> link(std::span<const Graph> graphs, const Library& library
   Elaborator elaborator(library, options, diagnostics);
   elaborator.run(graphs);
   if (diagnostics.has_errors()) return std::nullopt;
-  Linked linked{ProgramBuilder(elaborator, diagnostics).build(options.level), std::move(elaborator.params),
-                std::move(elaborator.dependencies)};
+  Linked linked{ProgramBuilder(elaborator, diagnostics).build(options.level),
+                std::move(elaborator.params), std::move(elaborator.dependencies)};
   if (const auto fault = vm::verify(linked.program))
     throw std::logic_error("emitted code does not verify: " + fault->function + ": " + fault->what);
   return linked;

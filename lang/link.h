@@ -32,8 +32,8 @@ enum class Level : std::uint8_t { O0, O1, O2 };
 
 struct LinkOptions {
   Level level = Level::O2;
-  std::vector<std::string> import_path;                        ///< `-I`, in order
-  std::vector<std::pair<std::string, std::string>> params;     ///< `--param name=expression`
+  std::vector<std::string> import_path;                     ///< `-I`, in order
+  std::vector<std::pair<std::string, std::string>> params;  ///< `--param name=expression`
 };
 
 /// A pass of the optimiser: what `--dump-after` and the manual print.

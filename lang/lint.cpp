@@ -9,10 +9,11 @@
 namespace mms::lang {
 namespace {
 
-const std::vector<std::string> kSurfaceOutputs = {"bsdf",   "scattering", "absorption", "emission_function",
-                                                  "emission", "height",   "gradient",   "bound"};
-const std::vector<std::string> kVolumeOutputs = {"phase", "scattering", "absorption", "emission_function",
-                                                 "emission", "bound"};
+const std::vector<std::string> kSurfaceOutputs = {
+    "bsdf",     "scattering", "absorption", "emission_function",
+    "emission", "height",     "gradient",   "bound"};
+const std::vector<std::string> kVolumeOutputs = {
+    "phase", "scattering", "absorption", "emission_function", "emission", "bound"};
 
 /// Where each name is read.
 using Reads = std::multimap<std::string, std::uint32_t, std::less<>>;
@@ -32,7 +33,8 @@ Reads reads_of(const Graph& g) {
 
 bool read_in(const Reads& reads, std::string_view name, Span where) {
   const auto [begin, end] = reads.equal_range(name);
-  return std::any_of(begin, end, [&](const auto& r) { return where.begin <= r.second && r.second < where.end; });
+  return std::any_of(
+      begin, end, [&](const auto& r) { return where.begin <= r.second && r.second < where.end; });
 }
 
 }  // namespace
@@ -41,7 +43,8 @@ void lint(const Graph& g, Diagnostics& diagnostics) {
   const Reads reads = reads_of(g);
   for (const Function& f : g.functions)
     for (const Assignment& a : f.body.assignments)
-      if (!read_in(reads, a.name.text, f.span)) diagnostics.add(Diag::Unused, a.name.span, a.name.text);
+      if (!read_in(reads, a.name.text, f.span))
+        diagnostics.add(Diag::Unused, a.name.span, a.name.text);
   for (const Descriptor& d : g.descriptors) {
     const bool surface = d.form == Descriptor::Form::Surface;
     const std::vector<std::string>& outputs = surface ? kSurfaceOutputs : kVolumeOutputs;
@@ -52,7 +55,8 @@ void lint(const Graph& g, Diagnostics& diagnostics) {
       if (near.empty()) {
         diagnostics.add(Diag::Unused, a.name.span, a.name.text);
       } else {
-        diagnostics.add(Diag::SuspiciousOutput, a.name.span, a.name.text, surface ? "surface" : "volume")
+        diagnostics
+            .add(Diag::SuspiciousOutput, a.name.span, a.name.text, surface ? "surface" : "volume")
             .help("did you mean `" + near + "`?");
       }
     }

@@ -19,7 +19,8 @@ struct Rewrite {
   IrFunction out;
   std::vector<std::vector<Ref>> where;
 
-  explicit Rewrite(const IrFunction& f) : out{f.name, f.params, {}, {}, f.recursive}, where(f.nodes.size()) {}
+  explicit Rewrite(const IrFunction& f)
+      : out{f.name, f.params, {}, {}, f.recursive}, where(f.nodes.size()) {}
 
   Ref at(Ref r) const { return where[r.node][r.result]; }
   /// Keeps `n` with its arguments mapped.
@@ -35,7 +36,9 @@ struct Rewrite {
   }
 };
 
-std::uint16_t number_of(const IrFunction& f) { return f.results.empty() ? 0 : f.results[0].function; }
+std::uint16_t number_of(const IrFunction& f) {
+  return f.results.empty() ? 0 : f.results[0].function;
+}
 
 /// Leaves stand first, so that arguments always precede what uses them.
 std::vector<std::uint32_t> order(const IrFunction& f) {
@@ -79,8 +82,8 @@ IrFunction simplify(const Module& m, IrFunction f) {
   auto is = [&](Ref r, double v) {
     const Node* n = &w.out.nodes[r.node];
     if (n->op == Op::Splat) n = &w.out.nodes[n->args[0].node];
-    return n->known >= 0 && m.constants[n->known].type == SlotType::Real && m.constants[n->known].f64 == v &&
-           m.constants[n->known].f32 == static_cast<float>(v);
+    return n->known >= 0 && m.constants[n->known].type == SlotType::Real &&
+           m.constants[n->known].f64 == v && m.constants[n->known].f32 == static_cast<float>(v);
   };
   for (std::uint32_t i : order(f)) {
     const Node& n = f.nodes[i];
@@ -90,8 +93,10 @@ IrFunction simplify(const Module& m, IrFunction f) {
     switch (n.op) {
       case Op::MulR:
       case Op::MulS:
-        if (is(arg(1), 1)) same = arg(0);
-        else if (is(arg(0), 1)) same = arg(1);
+        if (is(arg(1), 1))
+          same = arg(0);
+        else if (is(arg(0), 1))
+          same = arg(1);
         break;
       case Op::DivR:
       case Op::DivS:
@@ -108,14 +113,16 @@ IrFunction simplify(const Module& m, IrFunction f) {
       case Op::SelectS:
         if (arg(1) == arg(2)) same = arg(1);
         break;
-      default: break;
+      default:
+        break;
     }
-    if (same) w.where[i] = {*same};
-    else w.keep(i, n, number_of(f));
+    if (same)
+      w.where[i] = {*same};
+    else
+      w.keep(i, n, number_of(f));
   }
   return w.finish(f);
 }
-
 
 /// Drops nodes nobody reads, and the results of choices that nobody reads.
 IrFunction remove_dead(const Module&, IrFunction f) {
@@ -151,7 +158,9 @@ IrFunction remove_dead(const Module&, IrFunction f) {
     w.where[i].resize(n.results.size());
     for (int arm = 0; arm < 2; ++arm)
       for (std::size_t k = 0; k < n.results.size(); ++k)
-        if (read[i][k]) kept.args.push_back(w.at(n.args[1 + static_cast<std::size_t>(arm) * n.results.size() + k]));
+        if (read[i][k])
+          kept.args.push_back(
+              w.at(n.args[1 + static_cast<std::size_t>(arm) * n.results.size() + k]));
     for (std::size_t k = 0; k < n.results.size(); ++k)
       if (read[i][k]) kept.results.push_back(n.results[k]);
     const Ref r = add_node(w.out, number_of(f), std::move(kept));
@@ -164,10 +173,14 @@ IrFunction remove_dead(const Module&, IrFunction f) {
 
 Op select_of(SlotType t) {
   switch (t) {
-    case SlotType::Integer: return Op::SelectI;
-    case SlotType::Logic: return Op::SelectL;
-    case SlotType::Spectrum: return Op::SelectS;
-    default: return Op::SelectR;
+    case SlotType::Integer:
+      return Op::SelectI;
+    case SlotType::Logic:
+      return Op::SelectL;
+    case SlotType::Spectrum:
+      return Op::SelectS;
+    default:
+      return Op::SelectR;
   }
 }
 
@@ -204,20 +217,30 @@ IrFunction convert_ifs(const Module& m, IrFunction f) {
       continue;
     }
     for (std::size_t k = 0; k < n.results.size(); ++k)
-      w.where[i].push_back(add_node(w.out, number_of(f),
-                                    {select_of(n.results[k]), 0, 0,
-                                     {w.at(n.args[0]), w.at(n.args[1 + k]), w.at(n.args[1 + n.results.size() + k])},
-                                     {}, n.line, -1}));
+      w.where[i].push_back(
+          add_node(w.out, number_of(f),
+                   {select_of(n.results[k]),
+                    0,
+                    0,
+                    {w.at(n.args[0]), w.at(n.args[1 + k]), w.at(n.args[1 + n.results.size() + k])},
+                    {},
+                    n.line,
+                    -1}));
   }
   return w.finish(f);
 }
 
 constexpr Pass kPipeline[] = {
-    {{"fold", "replace what is known at link time by constants, computed with the machine's kernels"}, Level::O1, fold_known},
+    {{"fold",
+      "replace what is known at link time by constants, computed with the machine's kernels"},
+     Level::O1,
+     fold_known},
     {{"dead", "drop values nobody reads"}, Level::O0, remove_dead},
     {{"share", "compute equal pure expressions once"}, Level::O1, share},
     {{"simplify", "apply identities that hold for every float"}, Level::O2, simplify},
-    {{"if-convert", "compute both sides of a cheap choice instead of branching"}, Level::O2, convert_ifs},
+    {{"if-convert", "compute both sides of a cheap choice instead of branching"},
+     Level::O2,
+     convert_ifs},
     {{"share-again", "compute once what the last passes made equal"}, Level::O2, share},
     {{"dead-again", "drop what the last passes left behind"}, Level::O1, remove_dead},
 };

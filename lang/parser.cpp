@@ -56,7 +56,9 @@ Parser::Parser(SourcePtr source, Diagnostics& diagnostics)
              .top_functions = {},
              .descriptors = {}},
       diagnostics_(diagnostics),
-      lexer_(*graph_.source, diagnostics) {}
+      lexer_(*graph_.source, diagnostics) {
+  diagnostics.keep(graph_.source);
+}
 
 const Token& Parser::peek(std::uint32_t ahead) {
   static constexpr Token kEof{};
@@ -340,6 +342,7 @@ namespace {
 // Sources past the limit are not looked at.
 bool too_long(const SourcePtr& source, Diagnostics& diagnostics) {
   if (source->text.size() <= vm::limits::kSourceBytes) return false;
+  diagnostics.keep(source);
   diagnostics.add(Diag::SourceTooLong, Span{source.get(), 0, 0}, vm::limits::kSourceBytes, "bytes");
   return true;
 }

@@ -37,11 +37,13 @@ bool TypeTable::is_numeric(TypeId id) const {
     case Type::Form::Real:
     case Type::Form::Complex:
     case Type::Form::Spectrum:
-    case Type::Form::Enum: return true;
+    case Type::Form::Enum:
+      return true;
     case Type::Form::Struct:
     case Type::Form::Array:
       return std::all_of(t.parts.begin(), t.parts.end(), [&](TypeId p) { return is_numeric(p); });
-    default: return false;
+    default:
+      return false;
   }
 }
 

@@ -20,7 +20,13 @@ using TypeId = std::uint32_t;
 struct Type {
   enum class Form : std::uint8_t {
     Poison,  ///< of an expression that was reported already; fits everywhere
-    Logic, Integer, Real, Complex, Spectrum, Material, String,
+    Logic,
+    Integer,
+    Real,
+    Complex,
+    Spectrum,
+    Material,
+    String,
     Closure,   ///< a lambda or `#name` whose signature is known only where it is called
     Enum,      ///< name, members
     Struct,    ///< name, members, parts
@@ -45,7 +51,9 @@ class TypeTable {
   TypeTable();
   const Type& operator[](TypeId id) const { return types_[id]; }
   TypeId basic(BasicType b) const;
-  TypeId array(TypeId element, int size) { return intern({Type::Form::Array, size, {element}, {}, {}}); }
+  TypeId array(TypeId element, int size) {
+    return intern({Type::Form::Array, size, {element}, {}, {}});
+  }
   TypeId function(std::vector<TypeId> formals, TypeId result);
   TypeId intern(Type type);
 
