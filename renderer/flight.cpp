@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/flight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "materials/emission.h"
+#include "renderer/vertex.h"
+
+namespace mms::renderer {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+Spectrumf unit_clamped(const Spectrumf& s) {
+  return Spectrumf::map([](float x) { return x > 0 ? std::min(x, 1.0f) : 0.0f; }, s);
+}
+
+/// Coefficients are not negative; what is not a number counts as nothing there.
+Spectrumf not_negative(const Spectrumf& s) {
+  return Spectrumf::map([](float x) { return x > 0 ? x : 0.0f; }, s);
+}
+
+Spectrumf transmittance(const Spectrumf& extinction, float length) {
+  return Spectrumf::map([=](float s) { return s > 0 ? std::exp(-s * length) : 1.0f; }, extinction);
+}
+
+}  // namespace
+
+void Carried::happened(const Spectrumf& f, const Spectrumf& p) {
+  const float scale = 1 / p[0];
+  beta *= f * scale;
+  pdf *= p * scale;
+  light_pdf *= scale;
+}
+
+void Carried::rescale() {
+  const float largest = pdf.max();
+  if (!(largest > 0)) return;
+  const float scale = 1 / largest;
+  beta *= scale;
+  pdf *= scale;
+  light_pdf *= scale;
+}
+
+Spectrumf Carried::weighted(double light_density) const {
+  const double sum = double(pdf.sum()) + (light_density > 0 ? light_density * light_pdf.sum() : 0);
+  return sum > 0 ? beta * float(1 / sum) : Spectrumf(0.0f);
+}
+
+ScriptPoint script_point(const World& world, const Flight& f, const Hit* hit,
+                         const PathView& path) {
+  ScriptPoint p;
+  p.cluster = path.cluster;
+  p.view = -Vec3d(f.direction);
+  p.distance = f.t;
+  p.cone = path.cone * f.t;
+  p.screen_x = world.camera.right();
+  p.screen_y = world.camera.down();
+  if (hit) {
+    p.object = &world.scene.objects[hit->object];
+    p.surface = surface_of(world.scene, *hit, f.origin, f.direction);
+    return p;
+  }
+  p.object = &world.scene.objects[f.media.current()];
+  p.surface.position = Vec3d(f.origin) + Vec3d(f.direction) * double(f.t);
+  const Frame<double> axes = Frame<double>::around(p.view);
+  p.surface.normal = p.surface.geometric_normal = axes.n;
+  p.surface.tangent = axes.s;
+  p.surface.bitangent = axes.t;
+  return p;
+}
+
+void Flights::fly(std::vector<Flight>& flights, const std::vector<PathView>& paths) {
+  if (world_.plain) {
+    Crossings none;
+    for (Flight& f : flights) trace(f, none, 0);
+    return;
+  }
+  crossings_.resize(flights.size());
+  flying_.clear();
+  for (int i = 0; i < int(flights.size()); ++i) {
+    trace(flights[i], crossings_[i], 0);
+    if (flights[i].end == End::Flying) flying_.push_back(i);
+  }
+  while (!flying_.empty()) {
+    requests_.clear();
+    for (int i : flying_) {
+      Flight& f = flights[i];
+      const Need need = advance(f, crossings_[i], paths[f.path]);
+      if (need == Need::Nothing) continue;
+      const int key = need == Need::Crossing
+                          ? world_.scene.objects[crossings_[i].hits[f.next].object].surface
+                          : world_.scene.objects[f.media.current()].volume;
+      requests_.push_back({i, need, key});
+    }
+    std::stable_sort(requests_.begin(), requests_.end(), [](const Request& a, const Request& b) {
+      return std::pair(a.need, a.key) < std::pair(b.need, b.key);
+    });
+    for (std::size_t first = 0, last = 0; first < requests_.size(); first = last) {
+      while (last < requests_.size() && last - first < std::size_t(scripts_.width()) &&
+             requests_[last].need == requests_[first].need &&
+             requests_[last].key == requests_[first].key)
+        ++last;
+      answer(flights, paths, std::span(requests_).subspan(first, last - first));
+    }
+    std::erase_if(flying_, [&](int i) { return flights[i].end != End::Flying; });
+  }
+}
+
+/// Finds what lies on the ray beyond distance `from`.
+void Flights::trace(Flight& f, Crossings& crossings, float from) {
+  const bool shadow = f.errand == Errand::Shadow;
+  if (from == 0) ++(shadow ? counters_.shadow_rays : counters_.rays);
+  if (shadow && world_.plain) {
+    f.end = world_.accel.occluded(f.origin, f.direction, f.t_max) ? End::Lost : End::Free;
+    return;
+  }
+  f.hit = world_.accel.intersect(f.origin, f.direction, from, f.t_max, crossings);
+  f.next = 0;
+  if (shadow && f.hit.object >= 0) f.end = End::Lost;
+  if (world_.plain && !shadow) {
+    f.end = f.hit.object >= 0 ? End::Surface : End::Free;
+    f.t = f.hit.object >= 0 ? f.hit.t : kInfinity;
+  }
+}
+
+/// Takes a flight to its end, or to where a script has to be asked.
+Flights::Need Flights::advance(Flight& f, Crossings& crossings, const PathView& path) {
+  for (;;) {
+    if (f.next == crossings.count && crossings.overflow) {
+      trace(f, crossings, std::nextafter(f.t, kInfinity));
+      if (f.end != End::Flying) return Need::Nothing;
+    }
+    const bool at_crossing = f.next < crossings.count;
+    const float to = at_crossing ? crossings.hits[f.next].t : f.hit.object >= 0 ? f.hit.t : f.t_max;
+    if (to == kInfinity) f.media.count = 0;  // left through a gap of a mesh that is not closed
+    if (const int object = f.media.current(); object >= 0 && to > f.t) {
+      const CompiledDescriptor& volume = world_.volume_of_object(object);
+      if (volume.homogeneous) {
+        if (f.medium_object != object) return Need::Coefficients;
+        if (through_homogeneous(f, to - f.t, path)) return Need::Nothing;
+      } else {
+        const float step = -std::log1p(-random(f, path)) / float(volume.majorant);
+        if (f.t + step < to) {
+          f.t += step;
+          return Need::Collision;
+        }
+      }
+    }
+    f.t = to;
+    if (at_crossing) return Need::Crossing;
+    f.end = f.hit.object >= 0 ? End::Surface : End::Free;
+    return Need::Nothing;
+  }
+}
+
+/// A stretch of homogeneous medium in closed form; true if the flight ended in it. Distances are
+/// drawn for the hero and weighed over all wavelengths (thesis (4.14), pdf_tr).
+bool Flights::through_homogeneous(Flight& f, float length, const PathView& path) {
+  ++counters_.media_steps;
+  const Spectrumf extinction = f.scattering + f.absorption;
+  const Spectrumf passed = transmittance(extinction, length);
+  if (f.errand == Errand::Shadow) {
+    // A path would have had to decide not to collide, with this very probability.
+    f.carried.beta *= passed;
+    f.carried.pdf *= passed;
+    if (f.carried.beta.is_black()) f.end = End::Lost;
+    return f.end != End::Flying;
+  }
+  if (!f.emission.is_black()) {
+    Spectrumf optical;  // integral of the transmittance over the stretch
+    for (int k = 0; k < kWavelengths; ++k)
+      optical[k] =
+          extinction[k] > 0 ? -std::expm1(-extinction[k] * length) / extinction[k] : length;
+    *path.radiance += f.carried.weighted(0) * f.emission * optical;
+  }
+  const float hero = extinction[0];
+  const float s = hero > 0 ? -std::log1p(-random(f, path)) / hero : kInfinity;
+  if (s < length) {
+    const Spectrumf until = transmittance(extinction, s);
+    f.carried.happened(f.scattering * until, extinction * until);
+    f.t += s;
+    f.end = f.scattering[0] > 0 ? End::Medium : End::Lost;
+    return true;
+  }
+  f.carried.happened(passed, passed);
+  f.carried.rescale();
+  return false;
+}
+
+/// Runs the script that a group of flights waits for, and lets each act on its answer.
+void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& paths,
+                     std::span<const Request> requests) {
+  const Need need = requests[0].need;
+  points_.clear();
+  for (const Request& r : requests) {
+    Flight& f = flights[r.flight];
+    const Hit* hit = need == Need::Crossing ? &crossings_[r.flight].hits[f.next] : nullptr;
+    points_.push_back(script_point(world_, f, hit, paths[f.path]));
+  }
+  lanes_.clear();
+  for (const ScriptPoint& p : points_) lanes_.push_back(&p);
+  const int n = int(requests.size());
+
+  if (need != Need::Crossing) {
+    const vm::Descriptor& d = *world_.scene.volumes[requests[0].key].script;
+    const CompiledDescriptor& volume = world_.compiled.of(&d);
+    scripts_.run(d, EntryKind::Shade, lanes_);
+    for (int i = 0; i < n; ++i) {
+      Flight& f = flights[requests[i].flight];
+      f.medium_object = f.media.current();
+      const bool lost = scripts_.given_up(i);
+      f.scattering = lost ? Spectrumf() : not_negative(scripts_.spectrum(d.shade.scattering, i));
+      f.absorption = lost ? Spectrumf() : not_negative(scripts_.spectrum(d.shade.absorption, i));
+      f.emission = lost ? Spectrumf() : not_negative(scripts_.spectrum(d.shade.emission, i));
+      if (volume.emits && !lost) {
+        // The shape of emission in a volume is a phase function, 1 for the isotropic one.
+        params_.resize(std::max(1, volume.shade_emission.param_count()));
+        scripts_.params(d.shade.emission_material, i, params_.data());
+        f.emission *= volume_emission_shape(volume.shade_emission, params_.data(), -f.direction);
+      }
+      if (need == Need::Collision) collide(f, volume, i, paths[f.path]);
+    }
+    return;
+  }
+
+  const Surface& surface = world_.scene.surfaces[requests[0].key];
+  if (!surface.script) {  // only an invisible one comes here
+    for (int i = 0; i < n; ++i)
+      cross(flights[requests[i].flight], crossings_[requests[i].flight], points_[i], Spectrumf(),
+            Spectrumf(), paths[flights[requests[i].flight].path]);
+    return;
+  }
+  const vm::Descriptor& d = *surface.script;
+  if (world_.compiled.of(&d).emits) {
+    scripts_.run(d, EntryKind::Emit, lanes_);
+    for (int i = 0; i < n; ++i) {
+      const Flight& f = flights[requests[i].flight];
+      if (f.errand == Errand::Path && !scripts_.given_up(i))
+        add_crossing_emission(f, points_[i],
+                              scripted_emission(world_.compiled, scripts_, d, EntryKind::Emit, i,
+                                                points_[i].surface, points_[i].view, params_),
+                              paths[f.path]);
+    }
+  }
+  scripts_.run(d, EntryKind::Pass, lanes_);
+  for (int i = 0; i < n; ++i) {
+    Flight& f = flights[requests[i].flight];
+    const bool lost = scripts_.given_up(i);
+    cross(f, crossings_[requests[i].flight], points_[i],
+          lost ? Spectrumf(1.0f) : unit_clamped(scripts_.spectrum(d.pass.scattering, i)),
+          lost ? Spectrumf() : unit_clamped(scripts_.spectrum(d.pass.absorption, i)),
+          paths[f.path]);
+  }
+}
+
+/// A tentative collision of delta tracking (a path) or ratio tracking (a shadow ray): real, or
+/// with the fictitious matter that fills the medium up to its majorant.
+void Flights::collide(Flight& f, const CompiledDescriptor& volume, int, const PathView& path) {
+  ++counters_.media_steps;
+  f.medium_object = -1;  // valid at this point only
+  const float majorant = float(volume.majorant);
+  Spectrumf scattered, nothing;  // what becomes of a colliding photon, per wavelength
+  for (int k = 0; k < kWavelengths; ++k) {
+    const float extinction = f.scattering[k] + f.absorption[k];
+    // Beyond the bound that the author stated, the medium is as dense as the bound.
+    const float held = extinction > majorant ? majorant / extinction : 1;
+    scattered[k] = f.scattering[k] * held / majorant;
+    nothing[k] = std::max(0.0f, 1 - extinction * held / majorant);
+  }
+  const Spectrumf either = scattered + nothing;
+  Spectrumf p_nothing;
+  for (int k = 0; k < kWavelengths; ++k) p_nothing[k] = either[k] > 0 ? nothing[k] / either[k] : 0;
+  if (f.errand == Errand::Shadow) {
+    f.carried.beta *= nothing;
+    f.carried.pdf *= p_nothing;
+    if (f.carried.beta.is_black()) f.end = End::Lost;
+    return;
+  }
+  if (!f.emission.is_black()) *path.radiance += f.carried.weighted(0) * f.emission * (1 / majorant);
+  if (!(either[0] > 0)) {
+    f.end = End::Lost;
+    return;
+  }
+  if (random(f, path) < p_nothing[0]) {
+    f.carried.happened(nothing, p_nothing);
+    f.carried.rescale();
+    return;
+  }
+  if (!(p_nothing[0] < 1)) {  // the hero cannot scatter, and rounding drew it all the same
+    f.end = End::Lost;
+    return;
+  }
+  f.carried.happened(scattered, Spectrumf(1.0f) - p_nothing);
+  f.carried.rescale();
+  f.end = End::Medium;
+}
+
+/// A semi-transparent surface: scattered there, or straight through with (1 - s)(1 - a).
+void Flights::cross(Flight& f, const Crossings& crossings, const ScriptPoint& point,
+                    const Spectrumf& scattering, const Spectrumf& absorption,
+                    const PathView& path) {
+  const Spectrumf one(1.0f);
+  const Spectrumf through = (one - scattering) * (one - absorption);
+  const Spectrumf either = scattering + through;
+  Spectrumf p_through;
+  for (int k = 0; k < kWavelengths; ++k) p_through[k] = either[k] > 0 ? through[k] / either[k] : 0;
+  const Hit& hit = crossings.hits[f.next];
+  const bool inwards = dot(point.surface.geometric_normal, point.view) > 0;
+  if (f.errand == Errand::Shadow) {
+    f.carried.beta *= through;
+    f.carried.pdf *= p_through;
+    if (f.carried.beta.is_black()) {
+      f.end = End::Lost;
+      return;
+    }
+  } else {
+    if (!(either[0] > 0)) {
+      f.end = End::Lost;
+      return;
+    }
+    if (!(p_through[0] > 0) || random(f, path) >= p_through[0]) {
+      f.carried.happened(scattering, one - p_through);
+      f.carried.rescale();
+      f.hit = hit;
+      f.emission_seen = true;
+      f.end = scattering[0] > 0 ? End::Surface : End::Lost;
+      return;
+    }
+    f.carried.happened(through, p_through);
+    f.carried.rescale();
+  }
+  world_.cross(f.media, hit.object, inwards);
+  f.medium_object = -1;
+  ++f.next;
+}
+
+void Flights::add_crossing_emission(const Flight& f, const ScriptPoint& point,
+                                    const Spectrumf& emitted, const PathView& path) {
+  const int object = int(point.object - world_.scene.objects.data());
+  const double light = world_.lights.pdf(Vec3d(f.origin), object, point.surface);
+  *path.radiance += f.carried.weighted(light) * emitted;
+}
+
+}  // namespace mms::renderer

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Rays on their way: through semi-transparent surfaces and media, to where something happens.
+/// Many fly at a time, so that what they meet can be asked of scripts in batches.
+
+#include <vector>
+
+#include "renderer/sampler.h"
+#include "renderer/world.h"
+
+namespace mms::renderer {
+
+/// What a path carries: for each wavelength the contribution so far over the density of the
+/// hero's choices, and how likely the same choices were with that wavelength as the hero. All are
+/// kept relative to the most likely wavelength, so that nothing overflows (thesis (4.6), (4.20)).
+struct Carried {
+  Spectrumf beta{1.0f};       ///< contribution over density
+  Spectrumf pdf{1.0f};        ///< relative density of getting here by scattering
+  Spectrumf light_pdf{0.0f};  ///< of getting to the last vertex, per unit density of light sampling
+
+  /// Records an event of probability `p[j]` for wavelength j (which happened, so p[0] > 0) that
+  /// multiplies the contribution by `f`. Light sampling reaches past it without the choice.
+  void happened(const Spectrumf& f, const Spectrumf& p);
+  /// Scales by the largest density.
+  void rescale();
+  /// Weight of light found with density `light_density` per steradian by the other technique:
+  /// the balance heuristic over both techniques and all wavelengths.
+  Spectrumf weighted(double light_density) const;
+};
+
+enum class Errand : std::uint8_t { Path, Shadow };
+enum class End : std::uint8_t {
+  Flying,
+  Surface,  ///< of a path: to be shaded at `hit`
+  Medium,   ///< of a path: scattered in a volume at `t`
+  Free,     ///< nothing (more) in the way
+  Lost,     ///< absorbed or blocked
+};
+
+struct Flight {
+  Vec3f origin, direction;
+  int path = 0;  ///< whose it is
+  Errand errand = Errand::Path;
+  End end = End::Flying;
+  bool emission_seen = false;  ///< of the crossing that `hit` is
+  float t = 0;                 ///< how far it has come
+  float t_max = 0;             ///< how far it goes at most
+  Hit hit;                     ///< the opaque surface at its end
+  int next = 0;                ///< crossing to come
+  std::uint32_t step = 0;      ///< counts its random numbers
+  std::uint32_t stream = 0;    ///< tells them from those of other flights of the path
+  Media media;
+  Carried carried;
+  int medium_object = -1;                      ///< whose coefficients these are
+  Spectrumf scattering, absorption, emission;  ///< 1/m, 1/m, W m^-3 sr^-1 nm^-1
+};
+
+/// What flights need to know of the paths they belong to.
+struct PathView {
+  const Cluster* cluster;
+  const Sampler* sampler;
+  Spectrumf* radiance;  ///< where light met on the way is added
+  double cone;          ///< width of the pixel for each metre of ray
+};
+
+struct FlightCounters {
+  std::uint64_t rays = 0, shadow_rays = 0, media_steps = 0;
+};
+
+class Flights {
+ public:
+  Flights(const World& world, Scripts& scripts) : world_(world), scripts_(scripts) {}
+
+  /// Lets every flight go on until it ends.
+  void fly(std::vector<Flight>& flights, const std::vector<PathView>& paths);
+
+  const FlightCounters& counters() const { return counters_; }
+
+ private:
+  enum class Need : std::uint8_t { Nothing, Coefficients, Collision, Crossing };
+  struct Request {
+    int flight;
+    Need need;
+    int key;  ///< volume or surface to ask
+  };
+
+  void trace(Flight& f, Crossings& crossings, float from);
+  Need advance(Flight& f, Crossings& crossings, const PathView& path);
+  bool through_homogeneous(Flight& f, float length, const PathView& path);
+  void answer(std::vector<Flight>& flights, const std::vector<PathView>& paths,
+              std::span<const Request> requests);
+  void collide(Flight& f, const CompiledDescriptor& volume, int lane, const PathView& path);
+  void cross(Flight& f, const Crossings& crossings, const ScriptPoint& point,
+             const Spectrumf& scattering, const Spectrumf& absorption, const PathView& path);
+  void add_crossing_emission(const Flight& f, const ScriptPoint& point, const Spectrumf& emitted,
+                             const PathView& path);
+  float random(Flight& f, const PathView& path) const {
+    return path.sampler->hashed(f.stream, f.step++);
+  }
+
+  const World& world_;
+  Scripts& scripts_;
+  FlightCounters counters_;
+  std::vector<Crossings> crossings_;
+  std::vector<int> flying_;
+  std::vector<Request> requests_;
+  std::vector<ScriptPoint> points_;
+  std::vector<const ScriptPoint*> lanes_;
+  std::vector<float> params_;
+};
+
+/// The point a flight has come to, for a script: on the surface of `hit`, or free in a volume.
+ScriptPoint script_point(const World& world, const Flight& f, const Hit* hit, const PathView& path);
+
+}  // namespace mms::renderer

@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/integrator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "materials/bsdf.h"
+#include "materials/phase.h"
+#include "renderer/vertex.h"
+
+namespace mms::renderer {
+namespace {
+
+using materials::Bsdf;
+using materials::Mode;
+using materials::Phase;
+
+/// Scattering events before Russian roulette begins.
+constexpr int kFirstRoulette = 3;
+
+/// Paths are given up below this mean contribution only: in glass of index n radiance is 1 / n^2 of
+/// what it is again outside, so a path that carries a third may have lost nothing.
+constexpr float kSafeContribution = 1.0f / 3;
+
+/// The tent filter of one pixel's radius, by warping the sample's place in the pixel.
+double tent(double u) { return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u)); }
+
+/// `matte`: what a surface of the scene scatters by, and the default of a script that gave up.
+const materials::Layout& matte_layout() {
+  static const materials::Layout layout(
+      vm::MaterialLayout{{{int(materials::Lobe::Matte), {{vm::SlotType::Spectrum, true, 0}}, {}}}});
+  return layout;
+}
+const materials::Layout& isotropic_layout() {
+  static const materials::Layout layout(
+      vm::MaterialLayout{{{int(materials::Lobe::Isotropic), {}, {}}}});
+  return layout;
+}
+
+}  // namespace
+
+/// Scattering at a vertex with one face for surfaces and volumes. Values hold the cosine.
+struct Integrator::Scatterer {
+  const materials::Layout& layout;
+  const float* params;
+  bool medium = false;
+  Frame<double> frame;
+
+  struct Sampled {
+    Vec3d wi;
+    Spectrumf f, pdf;
+    bool specular = false;
+  };
+
+  bool can_connect() const {
+    return medium || (layout.has_smooth() && !Bsdf<float>(layout, params).specular_only());
+  }
+
+  Sampled evaluate(const ScriptPoint& p, Vec3d wi) const {
+    if (medium) {
+      const Phase<float> phase(layout, params);
+      const auto lobes = phase.evaluate(Vec3f(p.view), Vec3f(wi));
+      return {wi, lobes.f, lobes.pdf};
+    }
+    if (!consistent(p.surface, frame, wi)) return {wi, {}, {}};
+    const Bsdf<float> bsdf(layout, params);
+    const Vec3f wo(frame.to_local(p.view)), local(frame.to_local(wi));
+    return {wi, bsdf.eval(wo, local, Mode::Radiance) * std::abs(local.z),
+            bsdf.pdf(wo, local, Mode::Radiance)};
+  }
+
+  std::optional<Sampled> sample(const ScriptPoint& p, float u_lobe, float u, float v) const {
+    if (medium) {
+      const auto s = Phase<float>(layout, params).sample(Vec3f(p.view), u_lobe, u, v);
+      if (!s) return {};
+      return Sampled{Vec3d(s->wi), s->f, s->pdf};
+    }
+    const Vec3f wo(frame.to_local(p.view));
+    const auto s = Bsdf<float>(layout, params).sample(wo, u_lobe, u, v, Mode::Radiance);
+    if (!s) return {};
+    const Vec3d wi = normalize(frame.to_world(Vec3d(s->wi)));
+    if (!consistent(p.surface, frame, wi)) return {};
+    return Sampled{wi, s->f * std::abs(s->wi.z), s->pdf, s->specular};
+  }
+};
+
+Integrator::Integrator(const World& world)
+    : world_(world), scripts_(world.compiled), flights_(world, scripts_) {}
+
+void Integrator::trace(std::span<const PixelSample> samples, std::span<std::array<double, 3>> xyz) {
+  start(samples);
+  while (!now_.empty()) {
+    flights_.fly(now_, views_);
+    gather();
+    next_.clear();
+    shadows_.clear();
+    connections_.clear();
+    for (std::size_t first = 0, last = 0; first < vertices_.size(); first = last) {
+      while (last < vertices_.size() && last - first < std::size_t(scripts_.width()) &&
+             vertices_[last].kind == vertices_[first].kind)
+        ++last;
+      shade(std::span(vertices_).subspan(first, last - first));
+    }
+    light_connections();
+    std::swap(now_, next_);
+  }
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    xyz[i] = paths_[i].cluster.xyz(paths_[i].radiance);
+}
+
+/// Draws wavelengths and camera rays.
+void Integrator::start(std::span<const PixelSample> samples) {
+  paths_.assign(samples.size(), {});
+  views_.clear();
+  now_.clear();
+  for (int i = 0; i < int(samples.size()); ++i) {
+    const PixelSample& s = samples[i];
+    Path& p = paths_[i];
+    p.sampler = Sampler(world_.seed, s.x, s.y, std::uint64_t(s.sample));
+    p.cluster = sample_cluster(p.sampler(kWavelength));
+    const CameraRay ray =
+        world_.camera.at(s.x + 0.5 + tent(p.sampler(kFilmX)), s.y + 0.5 + tent(p.sampler(kFilmY)),
+                         p.sampler(kLensU), p.sampler(kLensV));
+    views_.push_back({&p.cluster, &p.sampler, &p.radiance, world_.camera.pixel_angle()});
+    Flight f;
+    f.origin = ray.origin;
+    f.direction = ray.direction;
+    f.path = i;
+    f.t_max = std::numeric_limits<float>::infinity();
+    f.media = world_.camera_media;
+    now_.push_back(f);
+  }
+}
+
+/// Adds what the environment sends along rays that left the scene, and orders the rest by what
+/// has to be run for them.
+void Integrator::gather() {
+  vertices_.clear();
+  for (const Flight& f : now_) {
+    Path& p = paths_[f.path];
+    if (f.end == End::Free) {
+      const Vec3d d(f.direction);
+      const Spectrumf weight = f.carried.weighted(world_.lights.pdf_environment(d));
+      p.radiance += weight * world_.lights.environment(d, p.cluster);
+    } else if (f.end == End::Surface || f.end == End::Medium) {
+      const bool medium = f.end == End::Medium;
+      const int kind = medium ? int(world_.scene.surfaces.size()) +
+                                    world_.scene.objects[f.media.current()].volume
+                              : world_.scene.objects[f.hit.object].surface;
+      Vertex v{&f, kind, script_point(world_, f, medium ? nullptr : &f.hit, views_[f.path])};
+      p.travelled += f.t;
+      v.point.cone = world_.camera.pixel_angle() * p.travelled;
+      vertices_.push_back(v);
+    }
+  }
+  std::stable_sort(vertices_.begin(), vertices_.end(),
+                   [](const Vertex& a, const Vertex& b) { return a.kind < b.kind; });
+}
+
+void Integrator::add_emission(const Vertex& v, const Spectrumf& emitted) {
+  if (emitted.is_black() || v.from->emission_seen) return;
+  const double light =
+      world_.lights.pdf(Vec3d(v.from->origin), v.from->hit.object, v.point.surface);
+  paths_[v.from->path].radiance += v.from->carried.weighted(light) * emitted;
+}
+
+/// One batch: vertices that wear the same surface or lie in volumes of the same descriptor.
+void Integrator::shade(std::span<const Vertex> group) {
+  const int n = int(group.size());
+  const int surfaces = int(world_.scene.surfaces.size());
+  const bool medium = group[0].kind >= surfaces;
+  params_.resize(std::size_t(n) * std::max(world_.compiled.max_params(), kWavelengths));
+  const std::size_t stride = params_.size() / n;
+  const vm::Descriptor* d = medium ? world_.scene.volumes[group[0].kind - surfaces].script
+                                   : world_.scene.surfaces[group[0].kind].script;
+  if (!d) {
+    const FixedSurface& fixed = world_.scene.surfaces[group[0].kind].fixed;
+    for (const Vertex& v : group) {
+      const SurfacePoint& s = v.point.surface;
+      add_emission(v, fixed_emission(fixed, s, v.point.view, *v.point.cluster));
+      const Spectrumf albedo = fixed_albedo(fixed, *v.point.object, s.position, *v.point.cluster);
+      if (albedo.is_black()) continue;
+      std::copy(albedo.v.begin(), albedo.v.end(), params_.begin());
+      scatter(v, {matte_layout(), params_.data(), false, shading_frame(s, {0, 0}, v.point.view)});
+    }
+    return;
+  }
+  lanes_.clear();
+  for (const Vertex& v : group) lanes_.push_back(&v.point);
+  scripts_.run(*d, EntryKind::Shade, lanes_);
+  const CompiledDescriptor& c = world_.compiled.of(d);
+  for (int i = 0; i < n; ++i) {
+    const Vertex& v = group[i];
+    float* params = &params_[i * stride];
+    const bool lost = scripts_.given_up(i);
+    if (!lost) scripts_.params(d->shade.material, i, params);
+    if (medium) {
+      scatter(v, {lost ? isotropic_layout() : c.material, params, true, {}});
+      continue;
+    }
+    const SurfacePoint& s = v.point.surface;
+    if (lost) {
+      std::fill_n(params, kWavelengths, 1.0f);
+      scatter(v, {matte_layout(), params, false, shading_frame(s, {0, 0}, v.point.view)});
+      continue;
+    }
+    if (c.emits)
+      add_emission(v, scripted_emission(world_.compiled, scripts_, *d, EntryKind::Shade, i, s,
+                                        v.point.view, scratch_));
+    std::array<double, 2> gradient{0, 0};
+    if (c.bumps)
+      gradient = {scripts_.real(d->shade.gradient[0], i), scripts_.real(d->shade.gradient[1], i)};
+    scatter(v, {c.material, params, false, shading_frame(s, gradient, v.point.view)});
+  }
+}
+
+/// Lights a vertex, and sends the path on in a direction drawn for the hero.
+void Integrator::scatter(const Vertex& v, const Scatterer& s) {
+  Path& p = paths_[v.from->path];
+  const int bounce = p.depth++;
+  if (p.depth > world_.max_depth) return;
+  if (world_.lights.any() && s.can_connect()) connect(v, s);
+
+  const auto u = [&](BounceCoordinate c) { return p.sampler(coordinate_of(bounce, c)); };
+  const auto sampled = s.sample(v.point, u(kLobe), u(kDirectionU), u(kDirectionV));
+  if (!sampled) return;
+  Flight f = *v.from;
+  // The same vertex lit by a light drawn with density 1 has the density of the path up to here.
+  f.carried.light_pdf = sampled->specular ? Spectrumf(0.0f) : v.from->carried.pdf;
+  f.carried.happened(sampled->f, sampled->pdf);
+  f.carried.rescale();
+  if (!survives(p, f.carried, bounce)) return;
+  if (s.medium) {
+    f.origin = Vec3f(v.point.surface.position);
+  } else {
+    f.origin = ray_origin(v.point.surface, sampled->wi);
+    const double in = dot(sampled->wi, v.point.surface.geometric_normal);
+    if (in * dot(v.point.view, v.point.surface.geometric_normal) < 0)
+      world_.cross(f.media, v.from->hit.object, in < 0);
+  }
+  f.direction = Vec3f(sampled->wi);
+  f.end = End::Flying;
+  f.emission_seen = false;
+  f.t = 0;
+  f.t_max = std::numeric_limits<float>::infinity();
+  f.step = 0;
+  f.stream = 2 * std::uint32_t(p.depth);
+  if (f.media.current() != v.from->media.current()) f.medium_object = -1;
+  next_.push_back(f);
+}
+
+/// Draws a light and a direction to it, and makes the shadow ray; thesis (4.15).
+void Integrator::connect(const Vertex& v, const Scatterer& s) {
+  const Path& p = paths_[v.from->path];
+  const int bounce = p.depth - 1;
+  const Vec3d from = v.point.surface.position;
+  LightSample light = world_.lights.sample(from, p.sampler(coordinate_of(bounce, kLightU)),
+                                           p.sampler(coordinate_of(bounce, kLightV)));
+  if (!(light.pdf > 0)) return;
+  const Scatterer::Sampled towards = s.evaluate(v.point, light.direction);
+  if (towards.f.is_black()) return;
+
+  Flight f = *v.from;
+  f.carried.beta *= towards.f;
+  f.carried.light_pdf = f.carried.pdf;
+  f.carried.pdf *= towards.pdf;
+  if (light.object == kEnvironment) {
+    f.carried.beta *= world_.lights.environment(light.direction, p.cluster);
+  } else {
+    const Surface& surface = world_.surface_of_object(light.object);
+    if (!surface.script)
+      f.carried.beta *= fixed_emission(surface.fixed, light.surface, -light.direction, p.cluster);
+  }
+  if (f.carried.beta.is_black()) return;
+  f.origin = s.medium ? Vec3f(from) : ray_origin(v.point.surface, light.direction);
+  f.t_max = std::numeric_limits<float>::infinity();
+  Vec3d direction = light.direction;
+  if (light.object != kEnvironment) {
+    // Both ends are moved off their surfaces, so the ray ends before it meets the light.
+    const Vec3d to = Vec3d(ray_origin(light.surface, -light.direction)) - Vec3d(f.origin);
+    const double distance = length(to);
+    if (!(distance > 0)) return;
+    direction = to / distance;
+    f.t_max = float(distance);
+  }
+  f.direction = Vec3f(direction);
+  f.errand = Errand::Shadow;
+  f.end = End::Flying;
+  f.t = 0;
+  f.step = 0;
+  f.stream = 2 * std::uint32_t(p.depth) + 1;
+  if (!s.medium) {
+    const double in = dot(light.direction, v.point.surface.geometric_normal);
+    if (in * dot(v.point.view, v.point.surface.geometric_normal) < 0)
+      world_.cross(f.media, v.from->hit.object, in < 0);
+  }
+  if (f.media.current() != v.from->media.current()) f.medium_object = -1;
+  connections_.push_back({int(shadows_.size()), light});
+  shadows_.push_back(f);
+}
+
+/// Asks scripted emitters what they radiate, lets the shadow rays fly, and adds what arrives.
+void Integrator::light_connections() {
+  std::vector<Connection> asked;
+  for (const Connection& c : connections_)
+    if (c.light.object != kEnvironment && world_.surface_of_object(c.light.object).script)
+      asked.push_back(c);
+  const auto surface_index = [&](const Connection& c) {
+    return world_.scene.objects[c.light.object].surface;
+  };
+  std::stable_sort(asked.begin(), asked.end(), [&](const Connection& a, const Connection& b) {
+    return surface_index(a) < surface_index(b);
+  });
+  for (std::size_t first = 0, last = 0; first < asked.size(); first = last) {
+    light_points_.clear();
+    while (last < asked.size() && last - first < std::size_t(scripts_.width()) &&
+           surface_index(asked[last]) == surface_index(asked[first])) {
+      const Connection& c = asked[last++];
+      ScriptPoint q;
+      q.object = &world_.scene.objects[c.light.object];
+      q.cluster = &paths_[shadows_[c.flight].path].cluster;
+      q.surface = c.light.surface;
+      q.view = -c.light.direction;
+      q.distance = shadows_[c.flight].t_max;
+      light_points_.push_back(q);
+    }
+    lanes_.clear();
+    for (const ScriptPoint& q : light_points_) lanes_.push_back(&q);
+    const vm::Descriptor& d = *world_.scene.surfaces[surface_index(asked[first])].script;
+    scripts_.run(d, EntryKind::Emit, lanes_);
+    for (std::size_t i = first; i < last; ++i) {
+      const int lane = int(i - first);
+      const Spectrumf emitted =
+          scripts_.given_up(lane)
+              ? Spectrumf(0.0f)
+              : scripted_emission(world_.compiled, scripts_, d, EntryKind::Emit, lane,
+                                  light_points_[lane].surface, light_points_[lane].view, scratch_);
+      shadows_[asked[i].flight].carried.beta *= emitted;
+    }
+  }
+  std::vector<double> densities(shadows_.size());
+  for (const Connection& c : connections_) densities[c.flight] = c.light.pdf;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < shadows_.size(); ++i) {
+    if (shadows_[i].carried.beta.is_black()) continue;
+    shadows_[kept] = shadows_[i];
+    densities[kept++] = densities[i];
+  }
+  shadows_.resize(kept);
+  flights_.fly(shadows_, views_);
+  for (std::size_t i = 0; i < kept; ++i)
+    if (shadows_[i].end == End::Free)
+      paths_[shadows_[i].path].radiance += shadows_[i].carried.weighted(densities[i]);
+}
+
+/// Russian roulette by the mean contribution that the path still carries. It is the same whatever
+/// wavelength is the hero, so the spectral weights do not see it.
+bool Integrator::survives(Path& p, Carried& c, int bounce) {
+  const float carried = c.beta.sum() / c.pdf.sum();
+  if (!(carried > 0)) return false;
+  if (bounce + 1 < kFirstRoulette) return true;
+  const float q = std::min(1.0f, carried / kSafeContribution);
+  if (p.sampler(coordinate_of(bounce, kRoulette)) >= q) return false;
+  c.beta *= 1 / q;
+  return true;
+}
+
+}  // namespace mms::renderer

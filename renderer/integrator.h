@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Path tracing after thesis 4.4.1, in wavefronts: all paths of a chunk take each step together,
+/// so that hits on one descriptor are shaded in batches. One Integrator is one thread's.
+
+#include <span>
+#include <vector>
+
+#include "renderer/flight.h"
+
+namespace mms::renderer {
+
+struct PixelSample {
+  int x = 0, y = 0, sample = 0;
+};
+
+class Integrator {
+ public:
+  explicit Integrator(const World& world);
+
+  /// Estimates the picture at each sample: CIE XYZ. A sample's value does not depend on the
+  /// company it is traced in.
+  void trace(std::span<const PixelSample> samples, std::span<std::array<double, 3>> xyz);
+
+  const Scripts& scripts() const { return scripts_; }
+  const FlightCounters& counters() const { return flights_.counters(); }
+
+ private:
+  struct Path {
+    Sampler sampler;
+    Cluster cluster;
+    Spectrumf radiance;
+    float travelled = 0;  ///< m
+    int depth = 0;        ///< scattering events so far
+  };
+  /// A point of a path where it is scattered.
+  struct Vertex {
+    const Flight* from;
+    int kind;  ///< surfaces first, then volumes: what to run
+    ScriptPoint point;
+  };
+  /// What scatters at a vertex: a Bsdf in its frame or a Phase in world space.
+  struct Scatterer;
+  /// Light drawn for a vertex, on its way to be asked for and shadowed.
+  struct Connection {
+    int flight;  ///< in shadows_
+    LightSample light;
+  };
+
+  void start(std::span<const PixelSample> samples);
+  void gather();
+  void shade(std::span<const Vertex> group);
+  void scatter(const Vertex& v, const Scatterer& s);
+  void connect(const Vertex& v, const Scatterer& s);
+  void light_connections();
+  bool survives(Path& p, Carried& c, int bounce);
+  void add_emission(const Vertex& v, const Spectrumf& emitted);
+
+  const World& world_;
+  Scripts scripts_;
+  Flights flights_;
+  std::vector<Path> paths_;
+  std::vector<PathView> views_;
+  std::vector<Flight> now_, next_, shadows_;
+  std::vector<Vertex> vertices_;
+  std::vector<Connection> connections_;
+  std::vector<ScriptPoint> light_points_;
+  std::vector<const ScriptPoint*> lanes_;
+  std::vector<float> params_, scratch_;
+};
+
+}  // namespace mms::renderer

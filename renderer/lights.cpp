@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/warp.h"
+
+namespace mms::renderer {
+namespace {
+
+constexpr double kTwoPi = 2 * kPi<double>;
+
+double luminance(const Rgb& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; }
+
+/// Index of the step of a cumulative table (from 0 to its last entry) that `u` falls in, and what
+/// is left of `u` within the step, in [0, 1).
+int step_of(const double* table, int n, double u, double& rest) {
+  const double x = u * table[n];
+  int i = int(std::upper_bound(table, table + n + 1, x) - table) - 1;
+  i = std::clamp(i, 0, n - 1);
+  while (i > 0 && table[i + 1] == table[i]) --i;  // a step of no width is never chosen
+  const double width = table[i + 1] - table[i];
+  rest = width > 0 ? std::clamp((x - table[i]) / width, 0.0, 1 - 0x1p-53) : 0;
+  return i;
+}
+
+/// Half-angle terms of the cone that a sphere fills: 1 - cos, without cancellation.
+double one_minus_cos_cone(const Sphere& s, Vec3d from) {
+  const Vec3d to = s.centre - from;
+  const double sin2 = s.radius * s.radius / dot(to, to);
+  return sin2 / (1 + std::sqrt(std::max(0.0, 1 - sin2)));
+}
+
+bool outside(const Sphere& s, Vec3d from) {
+  const Vec3d to = s.centre - from;
+  return dot(to, to) > s.radius * s.radius * (1 + 1e-9);
+}
+
+/// Area density to solid-angle density.
+double to_solid_angle(double pdf_area, Vec3d from, const SurfacePoint& at) {
+  const Vec3d to = at.position - from;
+  const double d2 = dot(to, to);
+  const double cosine = std::abs(dot(to, at.geometric_normal)) / std::sqrt(d2);
+  return cosine > 0 ? pdf_area * d2 / cosine : 0;
+}
+
+SurfacePoint sample_sphere(const Sphere& s, Vec3d from, double u, double v) {
+  if (!outside(s, from)) return surface_at(s, s.centre + square_to_sphere(u, v) * s.radius);
+  const double one_minus_cos = u * one_minus_cos_cone(s, from);
+  const double sine = std::sqrt(one_minus_cos * (2 - one_minus_cos));
+  const Frame<double> f = Frame<double>::around(normalize(s.centre - from));
+  const Vec3d d =
+      f.to_world({sine * std::cos(kTwoPi * v), sine * std::sin(kTwoPi * v), 1 - one_minus_cos});
+  const Roots r = intersect(s, from, d, 0, 1e300);
+  // At the rim rounding may miss the sphere: its point nearest to the ray.
+  return surface_at(s, from + d * (r.count > 0 ? r.t[0] : dot(s.centre - from, d)));
+}
+
+}  // namespace
+
+TexelDensity::TexelDensity(std::vector<double> weight, int width, int height)
+    : width_(width), height_(height), rows_(1, 0.0) {
+  columns_.reserve(std::size_t(height) * (width + 1));
+  for (int y = 0; y < height; ++y) {
+    double sum = 0;
+    columns_.push_back(0);
+    for (int x = 0; x < width; ++x) columns_.push_back(sum += weight[std::size_t(y) * width + x]);
+    rows_.push_back(rows_.back() + sum);
+  }
+}
+
+TexelDensity::Drawn TexelDensity::sample(double u, double v) const {
+  double rest_x = 0, rest_y = 0;
+  const int row = step_of(rows_.data(), height_, v, rest_y);
+  const int column = step_of(&columns_[std::size_t(row) * (width_ + 1)], width_, u, rest_x);
+  const double x = (column + rest_x) / width_, y = (row + rest_y) / height_;
+  return {x, y, pdf(x, y)};
+}
+
+double TexelDensity::pdf(double x, double y) const {
+  const int row = std::clamp(int(y * height_), 0, height_ - 1);
+  const int column = std::clamp(int(x * width_), 0, width_ - 1);
+  const double* c = &columns_[std::size_t(row) * (width_ + 1) + column];
+  return (c[1] - c[0]) / rows_.back() * width_ * height_;
+}
+
+Lights::Lights(const SceneData& scene, const std::vector<double>& radiance)
+    : scene_(&scene), choice_of_(scene.objects.size(), -1) {
+  const Vec3d focus = scene.camera.target;
+  double sum = 0;
+  const auto add = [&](Choice c, double irradiance) {
+    if (c.object >= 0) choice_of_[c.object] = int(choices_.size());
+    c.probability = irradiance;
+    sum += irradiance;
+    choices_.push_back(std::move(c));
+  };
+  for (int i = 0; i < int(scene.objects.size()); ++i) {
+    if (!(radiance[i] > 0)) continue;
+    const Shape& shape = scene.objects[i].shape;
+    Choice c{i, 0, 0, {}, area(shape)};
+    if (const Mesh* m = std::get_if<Mesh>(&shape)) {
+      c.triangles.push_back(0);
+      for (std::uint32_t t = 0; t < m->triangles.size(); ++t)
+        c.triangles.push_back(c.triangles.back() + triangle_area(*m, t));
+    }
+    // Radiance times the solid angle that half the area fills, at most that of the hemisphere.
+    const Vec3d to = bounds(shape).centre() - focus;
+    const double solid_angle = std::min(kTwoPi, 0.5 * c.area / std::max(dot(to, to), 1e-12));
+    add(std::move(c), radiance[i] * solid_angle);
+  }
+  const Environment& e = scene.environment;
+  double mean = e.image ? luminance(e.radiance) : 0;
+  if (mean > 0) {
+    const int w = e.image->width, h = e.image->height;
+    const auto at = [&](int x, int y) {
+      const auto& c = e.image->rgb[std::size_t(std::clamp(y, 0, h - 1)) * w + (x + w) % w];
+      return std::max(0.0, luminance({c[0], c[1], c[2]}));
+    };
+    std::vector<double> weight(std::size_t(w) * h);
+    double total = 0, norm = 0;
+    for (int y = 0; y < h; ++y)
+      for (int x = 0; x < w; ++x) {
+        const double sine = std::sin(kPi<double> * (y + 0.5) / h);
+        double box = 0;  // texels are blended, so a texel's light reaches into its neighbours
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx) box += at(x + dx, y + dy);
+        weight[std::size_t(y) * w + x] = box / 9 * sine;
+        total += box / 9 * sine;
+        norm += sine;
+      }
+    mean *= norm > 0 ? total / norm : 0;
+    if (total > 0) texels_ = TexelDensity(std::move(weight), w, h);
+  }
+  // Scattering directions find an even environment better than any density of light directions
+  // that knows nothing of the surface, so only a picture is sampled as a light.
+  if (mean > 0) add({kEnvironment, 0, 0, {}, 0}, mean * kPi<double>);
+  // A tenth is spread evenly, for lights that matter elsewhere than at the focus.
+  double cumulative = 0;
+  for (Choice& c : choices_) {
+    c.probability = 0.9 * c.probability / sum + 0.1 / double(choices_.size());
+    c.cumulative = cumulative += c.probability;
+    if (c.object == kEnvironment) environment_probability_ = c.probability;
+  }
+}
+
+LightSample Lights::sample(Vec3d from, double u, double v) const {
+  const Choice* c = &choices_[0];
+  while (c != &choices_.back() && u >= c->cumulative) ++c;
+  u = std::clamp((u - c->cumulative + c->probability) / c->probability, 0.0, 1 - 0x1p-53);
+  if (c->object == kEnvironment) return sample_environment(u, v);
+  LightSample s;
+  s.object = c->object;
+  const Shape& shape = scene_->objects[c->object].shape;
+  if (const Sphere* sphere = std::get_if<Sphere>(&shape)) {
+    s.surface = sample_sphere(*sphere, from, u, v);
+  } else if (!std::holds_alternative<Mesh>(shape)) {
+    s.surface = sample_surface(shape, u, v);
+  } else {
+    const Mesh& m = std::get<Mesh>(shape);
+    double rest = 0;
+    const int t = step_of(c->triangles.data(), int(m.triangles.size()), u, rest);
+    const double r = std::sqrt(rest);
+    s.surface = surface_at(m, std::uint32_t(t), r * (1 - v), r * v);
+  }
+  const Vec3d to = s.surface.position - from;
+  if (!(dot(to, to) > 0)) return s;
+  s.direction = normalize(to);
+  s.pdf = pdf(from, s.object, s.surface);
+  return s;
+}
+
+double Lights::pdf(Vec3d from, int object, const SurfacePoint& at) const {
+  if (choice_of_[object] < 0) return 0;
+  const Choice& c = choices_[choice_of_[object]];
+  if (const Sphere* s = std::get_if<Sphere>(&scene_->objects[object].shape))
+    if (outside(*s, from)) return c.probability / (kTwoPi * one_minus_cos_cone(*s, from));
+  return to_solid_angle(c.probability / c.area, from, at);
+}
+
+namespace {
+
+/// Column and row in [0, 1] of a direction, and back: +y up, the middle looks along -z.
+std::array<double, 2> to_map(Vec3d d, double rotation) {
+  double x = 0.5 + (std::atan2(d.x, -d.z) - rotation) / kTwoPi;
+  x -= std::floor(x);
+  return {x, std::acos(std::clamp(d.y, -1.0, 1.0)) / kPi<double>};
+}
+
+Vec3d from_map(double x, double y, double rotation) {
+  const double phi = (x - 0.5) * kTwoPi + rotation, theta = y * kPi<double>;
+  return {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
+}
+
+}  // namespace
+
+LightSample Lights::sample_environment(double u, double v) const {
+  LightSample s;
+  const Environment& e = scene_->environment;
+  const TexelDensity::Drawn d = texels_.sample(u, v);
+  s.direction = from_map(d.x, d.y, e.rotation);
+  s.pdf = pdf_environment(s.direction);
+  return s;
+}
+
+double Lights::pdf_environment(Vec3d direction) const {
+  const Environment& e = scene_->environment;
+  if (environment_probability_ == 0) return 0;
+  const auto [x, y] = to_map(direction, e.rotation);
+  const double sine = std::sqrt(std::max(0.0, 1 - direction.y * direction.y));
+  return sine > 0 ? environment_probability_ * texels_.pdf(x, y) / (kTwoPi * kPi<double> * sine)
+                  : 0;
+}
+
+Rgb Lights::texel(double x, double y) const {
+  const EnvironmentImage& im = *scene_->environment.image;
+  const double fx = x * im.width - 0.5, fy = y * im.height - 0.5;
+  const int x0 = int(std::floor(fx)), y0 = int(std::floor(fy));
+  Rgb sum{0, 0, 0};
+  for (int dy = 0; dy < 2; ++dy)
+    for (int dx = 0; dx < 2; ++dx) {
+      const double w = (dx ? fx - x0 : 1 - fx + x0) * (dy ? fy - y0 : 1 - fy + y0);
+      const auto& t = im.rgb[std::size_t(std::clamp(y0 + dy, 0, im.height - 1)) * im.width +
+                             (x0 + dx + im.width) % im.width];
+      for (int k = 0; k < 3; ++k) sum[k] += w * t[k];
+    }
+  return sum;
+}
+
+Spectrumf Lights::environment(Vec3d direction, const Cluster& cluster) const {
+  const Environment& e = scene_->environment;
+  if (!e.image) return cluster.light(e.radiance);
+  const auto [x, y] = to_map(direction, e.rotation);
+  Rgb c = texel(x, y);
+  for (int k = 0; k < 3; ++k) c[k] *= e.radiance[k];
+  return cluster.light(c);
+}
+
+}  // namespace mms::renderer

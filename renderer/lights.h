@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Everything that sends light out: emitting objects and the environment. Offers sample, pdf and
+/// evaluate; what a scripted emitter radiates is asked of its script by the integrator.
+
+#include <vector>
+
+#include "renderer/accel.h"
+#include "renderer/cluster.h"
+#include "renderer/scene.h"
+
+namespace mms::renderer {
+
+inline constexpr int kEnvironment = -1;
+
+/// A direction towards a light, as seen from some point.
+struct LightSample {
+  int object = kEnvironment;  ///< index into SceneData::objects
+  SurfacePoint surface;       ///< of the object
+  Vec3d direction;            ///< unit, towards the light
+  double pdf = 0;             ///< per steradian, choice of the light included; 0: no sample
+};
+
+/// Piecewise constant density over the texels of a picture, drawn by inverting two tables.
+class TexelDensity {
+ public:
+  TexelDensity() = default;
+  /// `weight` row by row, not negative, not all zero.
+  TexelDensity(std::vector<double> weight, int width, int height);
+  /// A point of the unit square and its density there.
+  struct Drawn {
+    double x, y, pdf;
+  };
+  Drawn sample(double u, double v) const;
+  double pdf(double x, double y) const;
+
+ private:
+  int width_ = 0, height_ = 0;
+  std::vector<double> rows_, columns_;  ///< cumulative, each starting with 0
+};
+
+class Lights {
+ public:
+  /// `radiance[i]` estimates the mean luminance that object i radiates, 0 if it is no emitter.
+  Lights(const SceneData& scene, const std::vector<double>& radiance);
+
+  bool any() const { return !choices_.empty(); }
+
+  /// Draws a light by its estimated irradiance at the point the camera looks at, then a direction.
+  /// `u` chooses the light, and what is left of it the place on the light.
+  LightSample sample(Vec3d from, double u, double v) const;
+
+  /// Density, per steradian and choice included, of drawing the direction from `from` that meets
+  /// `object` at `at`. 0 for what is not an emitter.
+  double pdf(Vec3d from, int object, const SurfacePoint& at) const;
+  double pdf_environment(Vec3d direction) const;
+
+  /// Radiance that comes from the environment, from far along `direction`.
+  Spectrumf environment(Vec3d direction, const Cluster& cluster) const;
+
+ private:
+  struct Choice {
+    int object;
+    double probability, cumulative;
+    std::vector<double> triangles;  ///< cumulative area of a mesh's triangles
+    double area;
+  };
+  Rgb texel(double x, double y) const;
+  LightSample sample_environment(double u, double v) const;
+
+  const SceneData* scene_;
+  std::vector<Choice> choices_;
+  std::vector<int> choice_of_;  ///< object to choice, or -1
+  double environment_probability_ = 0;
+  TexelDensity texels_;
+};
+
+}  // namespace mms::renderer

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/prepare.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "renderer/sampler.h"
+#include "renderer/vertex.h"
+#include "renderer/world.h"
+#include "vm/limits.h"
+
+namespace mms::renderer {
+
+std::string place(const vm::Program& program, std::uint32_t source, std::uint32_t line) {
+  if (line == 0 || source >= program.sources.size()) return "script";
+  return fmt::format("{}:{}", program.sources[source], line);
+}
+
+std::string cause_text(vm::Fault::Cause cause) {
+  if (cause == vm::Fault::Cause::BackEdges)
+    return fmt::format("more than {} recursive steps at one point", vm::limits::kBackEdges);
+  return fmt::format("recursion deeper than {} calls", vm::limits::kCallDepth);
+}
+
+bool emits(const SceneData& scene, const Compiled& compiled, const Object& o) {
+  const Surface& s = scene.surfaces[o.surface];
+  return s.script ? compiled.of(s.script).emits : s.fixed.emits();
+}
+
+bool semi_transparent(const SceneData& scene, const Compiled& compiled, const Object& o) {
+  const Surface& s = scene.surfaces[o.surface];
+  return s.script ? compiled.of(s.script).semi_transparent : s.fixed.invisible;
+}
+
+namespace {
+
+/// Points of an object: on its surface, or anywhere in the box around it for its volume.
+std::vector<ScriptPoint> points_of(const Object& o, bool inside, const Cluster& cluster) {
+  std::vector<ScriptPoint> points(kProbePoints);
+  const Sampler random(0, 0, 0, 0);
+  const Bounds box = bounds(o.shape);
+  for (int i = 0; i < kProbePoints; ++i) {
+    const std::uint32_t k = 3 * std::uint32_t(i);
+    const double u = random.hashed(0, k), v = random.hashed(0, k + 1), w = random.hashed(0, k + 2);
+    ScriptPoint& p = points[i];
+    p.object = &o;
+    p.cluster = &cluster;
+    p.surface = sample_surface(o.shape, u, v);
+    if (inside) {
+      const Vec3d size = box.high - box.low;
+      p.surface.position = box.low + Vec3d{size.x * u, size.y * v, size.z * w};
+    }
+    p.view = p.surface.normal;
+    p.distance = 1;
+    p.cone = 1e-3;
+    p.screen_x = p.surface.tangent;
+    p.screen_y = p.surface.bitangent;
+  }
+  return points;
+}
+
+/// Nothing to do with the answers.
+struct None {};
+
+class Probe {
+ public:
+  Probe(const SceneData& scene, const Compiled& compiled)
+      : scene_(scene), compiled_(compiled), scripts_(compiled), cluster_(sample_cluster(0.5)) {}
+
+  Result<Findings> run() {
+    for (const Volume& v : scene_.volumes)
+      if (const std::optional<Error> e = check_bound(*v.script)) return *e;
+    Findings findings;
+    for (const Object& o : scene_.objects) {
+      findings.radiance.push_back(radiance_of(o));
+      if (o.volume >= 0)
+        run_all(*scene_.volumes[o.volume].script, EntryKind::Shade, points_of(o, true, cluster_),
+                None{});
+      if (scripts_.fault_lanes() > 0) return fault();
+    }
+    return findings;
+  }
+
+ private:
+  std::optional<Error> check_bound(const vm::Descriptor& d) const {
+    const CompiledDescriptor& c = compiled_.of(&d);
+    if (c.homogeneous || c.majorant > 0) return {};
+    return Error{
+        place(compiled_.program(), d.line.source, d.line.line),
+        fmt::format("volume `{}` varies from place to place and states no `bound`", d.name),
+        "add `bound = ...`: the largest scattering + absorption anywhere in it, in 1/m"};
+  }
+
+  template <class F>
+  void run_all(const vm::Descriptor& d, EntryKind kind, const std::vector<ScriptPoint>& points,
+               F each) {
+    std::vector<const ScriptPoint*> lanes;
+    for (std::size_t first = 0; first < points.size(); first += lanes.size()) {
+      lanes.clear();
+      for (std::size_t i = first; i < points.size() && int(lanes.size()) < scripts_.width(); ++i)
+        lanes.push_back(&points[i]);
+      scripts_.run(d, kind, lanes);
+      if constexpr (!std::is_same_v<F, None>)
+        for (int lane = 0; lane < int(lanes.size()); ++lane) each(*lanes[lane], lane);
+    }
+  }
+  /// Runs what a render will run for the object's surface; mean luminance along the normal.
+  double radiance_of(const Object& o) {
+    const Surface& surface = scene_.surfaces[o.surface];
+    if (!surface.script) {
+      const Rgb& e = surface.fixed.emission;
+      return 0.2126 * e[0] + 0.7152 * e[1] + 0.0722 * e[2];
+    }
+    const vm::Descriptor& d = *surface.script;
+    const std::vector<ScriptPoint> points = points_of(o, false, cluster_);
+    run_all(d, EntryKind::Shade, points, None{});
+    if (compiled_.of(&d).semi_transparent) run_all(d, EntryKind::Pass, points, None{});
+    if (!compiled_.of(&d).emits) return 0;
+    double sum = 0;
+    run_all(d, EntryKind::Emit, points, [&](const ScriptPoint& p, int lane) {
+      const Spectrumf e = scripted_emission(compiled_, scripts_, d, EntryKind::Emit, lane,
+                                            p.surface, p.surface.normal, scratch_);
+      sum += std::max(0.0, cluster_.xyz(e)[1] / kWavelengths);
+    });
+    // Too small to matter is still an emitter.
+    return std::isfinite(sum) ? std::max(sum / kProbePoints, 1e-6) : 1.0;
+  }
+
+  Error fault() const {
+    const auto& [where, lanes] = *scripts_.faults().begin();
+    return {place(compiled_.program(), where.source, where.line),
+            "the script does not come to an end: " + cause_text(where.cause),
+            "check that every recursion reaches its end"};
+  }
+
+  const SceneData& scene_;
+  const Compiled& compiled_;
+  Scripts scripts_;
+  Cluster cluster_;
+  std::vector<float> scratch_;
+};
+
+}  // namespace
+
+Result<Findings> probe(const SceneData& scene, const Compiled& compiled) {
+  return Probe(scene, compiled).run();
+}
+
+}  // namespace mms::renderer

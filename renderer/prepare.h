@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// What is found out before a render begins: whether scripts run within their budget, and how much
+/// each emitter radiates.
+
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "renderer/scripts.h"
+
+namespace mms::renderer {
+
+struct Findings {
+  std::vector<double> radiance;  ///< mean luminance of each object's surface; 0 is no emitter
+};
+
+/// Runs the scripts at kProbePoints points. Errors: a script that exceeds its budget; a volume that
+/// varies from place to place without a usable `bound`.
+Result<Findings> probe(const SceneData& scene, const Compiled& compiled);
+
+/// `file:line` of a place in a script.
+std::string place(const vm::Program& program, std::uint32_t source, std::uint32_t line);
+
+/// What the machine gave a lane up for, in words.
+std::string cause_text(vm::Fault::Cause cause);
+
+}  // namespace mms::renderer

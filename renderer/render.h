@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// From a linked program and a scene to a picture: the renderer's whole public interface.
+/// Nothing here prints, exits or throws; every mistake of the user is an `Error`.
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "vm/program.h"
+
+namespace mms::renderer {
+
+/// Where a scene comes from, and what takes the place of the descriptors that it names.
+struct SceneSource {
+  std::string name = "sphere";  ///< a built-in scene (`builtin_scenes()`) or the path of a .json
+  /// Surface and volume of the object under test (`"test": true` in a file; `ball` in the built-in
+  /// scenes). Empty: what the scene says, else the program's only surface, and the volume of the
+  /// same name if there is one.
+  std::string surface, volume;
+};
+
+/// Names of the built-in scenes, the default first.
+std::vector<std::string> builtin_scenes();
+
+struct SceneData;  // renderer/scene.h
+
+/// A validated scene: immutable, shared by all threads.
+class Scene {
+ public:
+  explicit Scene(std::shared_ptr<const SceneData> data) : data_(std::move(data)) {}
+  const SceneData& data() const { return *data_; }
+  const std::string& surface() const;  ///< descriptor bound to the test object; may be empty
+  const std::string& volume() const;   ///< likewise
+
+ private:
+  std::shared_ptr<const SceneData> data_;
+};
+
+/// Loads and checks a scene against the descriptors of `program`, which must outlive it.
+/// Errors say where: `file: objects[2].material`.
+Result<Scene> load_scene(const vm::Program& program, const SceneSource& source);
+
+struct Progress {
+  double fraction = 0;      ///< of the samples asked for, in [0, 1]
+  int samples = 0;          ///< samples a pixel done everywhere
+  double seconds = 0;       ///< since rendering began
+  double seconds_left = 0;  ///< estimated
+};
+
+struct RenderOptions {
+  int width = 512, height = 512;  ///< pixels, each in [1, 32768]
+  int samples = 64;               ///< for each pixel, at least 1
+  int threads = 0;                ///< 0: as many as the machine has
+  std::uint64_t seed = 0;
+  int max_depth = 64;  ///< scattering events of a path, at least 1
+  /// Called from one thread at a time, at most ten times a second, and once at the end.
+  std::function<void(const Progress&)> progress;
+  /// When it becomes true, rendering ends soon with what is there. May be null.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// Samples that were not finite, by cause.
+struct Dropped {
+  std::uint64_t nan = 0, infinite = 0, overflow = 0;
+  int first_x = -1, first_y = -1, first_sample = -1;  ///< the first in scan order; replays alone
+  std::uint64_t count() const { return nan + infinite + overflow; }
+};
+
+/// Lanes that the machine gave up at one source line.
+struct FaultCount {
+  std::string where;  ///< file:line
+  std::string cause;
+  std::uint64_t lanes = 0;
+};
+
+/// What a render did. Counters are totals over all threads.
+struct Report {
+  int samples = 0;     ///< samples a pixel actually done (the smallest over the image)
+  double seconds = 0;  ///< of rendering, without loading
+  int threads = 0;
+  /// Root mean square, over all pixels, of the standard error of a pixel's linear luminance
+  /// (1 is display white), from the variance of its samples. 0 below two samples.
+  double rmse = 0;
+
+  std::uint64_t paths = 0;
+  std::uint64_t script_runs = 0;    ///< runs of the machine, of any entry
+  std::uint64_t script_points = 0;  ///< lanes in them
+  std::uint64_t pass_runs = 0;      ///< of them, runs of `pass` entries
+  std::uint64_t emission_runs = 0;  ///< of them, runs of `emit` entries
+  std::uint64_t medium_runs = 0;    ///< of them, runs of volume descriptors
+  std::uint64_t media_steps = 0;    ///< tentative collisions and closed-form flights in media
+  std::uint64_t rays = 0;           ///< camera and scattered rays
+  std::uint64_t shadow_rays = 0;
+  double batch_fill = 0;  ///< mean lanes of a run over the width of a batch; 0 if no run
+
+  Dropped dropped;
+  std::vector<FaultCount> faults;  ///< by number, largest first
+  std::uint64_t fault_lanes = 0;
+  bool stopped = false;          ///< `stop` ended it early
+  bool too_many_faults = false;  ///< more than `kMaxFaultLanes` ended it early
+};
+
+/// Lanes that may be given up before a render ends.
+inline constexpr std::uint64_t kMaxFaultLanes = 1000;
+
+/// Points that are shaded before a render begins; a lane given up there is an error.
+inline constexpr int kProbePoints = 256;
+
+/// A linear picture: means of CIE XYZ (Y = 1 is display white) and the variance of the mean of Y.
+struct Film {
+  int width = 0, height = 0;
+  std::vector<std::array<double, 3>> xyz;  ///< row by row, top first
+  std::vector<double> variance;            ///< of the mean of Y
+};
+
+struct Rendered {
+  Film film;
+  Report report;
+};
+
+/// Renders; the error's `where` is the source line where the probe faulted, or the option.
+Result<Rendered> render(const vm::Program& program, const Scene& scene,
+                        const RenderOptions& options);
+
+/// How a linear picture becomes a display picture. Ignored for linear formats.
+struct ToneOptions {
+  double exposure = 0;  ///< stops
+};
+
+struct Done {};
+
+/// Whether `path` has a supported extension and can be written. Leaves no file behind.
+Result<Done> check_writable(const std::string& path);
+
+/// Writes .png (8-bit sRGB, tone mapped) or .exr (32-bit float linear sRGB primaries and a
+/// `variance` channel). Atomic: the file is there in full or not at all.
+Result<Done> write_image(const std::string& path, const Film& film, const ToneOptions& tone = {});
+
+}  // namespace mms::renderer

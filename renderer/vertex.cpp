@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/vertex.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/warp.h"
+#include "materials/emission.h"
+#include "materials/phase.h"
+
+namespace mms::renderer {
+
+Frame<double> shading_frame(const SurfacePoint& s, const std::array<double, 2>& gradient,
+                            Vec3d view) {
+  Vec3d n = s.normal - s.tangent * gradient[0] - s.bitangent * gradient[1];
+  const double l2 = dot(n, n);
+  n = std::isfinite(l2) && l2 > 0 ? n / std::sqrt(l2) : s.normal;
+  const Vec3d ng = s.geometric_normal;
+  const double side = dot(ng, view) < 0 ? -1 : 1;
+  const double height = side * dot(ng, view);
+  // How high above the surface the mirrored view is to stay: near the horizon no higher than the
+  // view itself, else about half a degree.
+  const double least = std::min(0.9 * height, 0.01);
+  const auto good = [&](Vec3d m) {
+    const double c = dot(m, view);
+    return c * side > 0 && side * dot(ng, m * (2 * c) - view) >= least;
+  };
+  if (!good(n)) {
+    double bad = 0, fine = 1;  // share of the geometric normal; 1 is always good
+    for (int i = 0; i < 10; ++i) {
+      const double mid = 0.5 * (bad + fine);
+      (good(normalize(n * (1 - mid) + ng * mid)) ? fine : bad) = mid;
+    }
+    n = normalize(n * (1 - fine) + ng * fine);
+  }
+  return Frame<double>::with_tangent(n, s.tangent);
+}
+
+Spectrumf scripted_emission(const Compiled& compiled, const Scripts& scripts,
+                            const vm::Descriptor& d, EntryKind entry, int lane,
+                            const SurfacePoint& s, Vec3d to, std::vector<float>& scratch) {
+  const vm::Entry& e = entry_of(d, entry);
+  const Spectrumf emission = scripts.spectrum(e.emission, lane);
+  if (emission.is_black()) return emission;
+  const CompiledDescriptor& c = compiled.of(&d);
+  const materials::Layout& layout = entry == EntryKind::Emit ? c.emit_emission : c.shade_emission;
+  scratch.resize(std::max(1, layout.param_count()));
+  scripts.params(e.emission_material, lane, scratch.data());
+  const Frame<double> frame = Frame<double>::with_tangent(s.normal, s.tangent);
+  return emission * materials::emission_shape(layout, scratch.data(), Vec3f(frame.to_local(to)));
+}
+
+Spectrumf fixed_emission(const FixedSurface& surface, const SurfacePoint& s, Vec3d to,
+                         const Cluster& cluster) {
+  if (!surface.emits() || !(dot(s.normal, to) > 0)) return Spectrumf(0.0f);
+  return cluster.light(surface.emission);
+}
+
+Spectrumf fixed_albedo(const FixedSurface& surface, const Object& object, Vec3d position,
+                       const Cluster& cluster) {
+  if (!surface.checker) return cluster.reflectance(surface.matte);
+  const Vec3d p = object.transform.inverse_point(position) / surface.checker_size;
+  const bool odd = (std::int64_t(std::floor(p.x)) + std::int64_t(std::floor(p.z))) & 1;
+  return cluster.reflectance(odd ? *surface.checker : surface.matte);
+}
+
+Spectrumf volume_emission_shape(const materials::Layout& layout, const float* params, Vec3f to) {
+  if (layout.empty()) return Spectrumf(1.0f);
+  return materials::Phase<float>(layout, params).eval({0, 1, 0}, to) * (4 * kPi<float>);
+}
+
+}  // namespace mms::renderer

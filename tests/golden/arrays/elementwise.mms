@@ -1,0 +1,11 @@
+// Operators combine arrays element by element; scalars broadcast.
+const a = [1, 2] + [10, 20];           // expect: [11, 22]
+const b = 2 * [1, 2] - 1;              // expect: [1, 3]
+const c = [1, 2] / [2, 4];             // expect: [0.5, 0.5]
+const d = -[1, 2];                     // expect: [-1, -2]
+const e1 = [1, 2; 3, 4] + [10, 20; 30, 40];   // expect: [11, 22, 33, 44]
+const f = [5, 7] % 3;                  // expect: [2, 1]
+const g = [2, 3] ^ 2;                  // expect: [4, 9]
+const h = 1 / [2, 4];                  // expect: [0.5, 0.25]
+real[3] i() = 2 * $position + [1, 0, 0];   // expect: [1, 0, 2]
+const j = [1i, 2] * 1i;                // expect: [-1, 0, 0, 2]

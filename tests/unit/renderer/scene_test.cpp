@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/scene.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "hand_program.h"
+
+using namespace mms;
+using namespace mms::renderer;
+using namespace mms::renderer::test;
+
+namespace {
+
+Error error_of(const std::string& text, SceneSource source = {}) {
+  HandProgram h;
+  h.matte("marble", 0.5);
+  h.matte("wood", 0.5);
+  h.volume("wax", 1, 1);
+  Result<SceneData> r = parse_scene(h.program, source, text, "s.json", "");
+  REQUIRE_FALSE(bool(r));
+  return r.error();
+}
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+const std::string kBall = R"({"sphere": {"radius": 1}, "surface": "wood"})";
+
+std::string with_ball(const std::string& rest) { return R"({"objects": [)" + kBall + "]" + rest + "}"; }
+
+}  // namespace
+
+TEST_CASE("every mistake names its place and what to try") {
+  Error e = error_of(R"({"objects": [{"sphere": {"radius": 1}, "surfce": "wood"}]})");
+  CHECK(e.where == "s.json: objects[0].surfce");
+  CHECK(e.what == "unknown key `surfce`");
+  CHECK(holds(e.hint, "did you mean `surface`?"));
+
+  e = error_of(R"({"objects": [{"sphere": {"radius": -1}, "surface": "wood"}]})");
+  CHECK(e.where == "s.json: objects[0].sphere.radius");
+  CHECK(holds(e.what, "-1"));
+  CHECK(holds(e.what, "[1e-09, 1000000000"));
+
+  e = error_of(R"({"objects": [{"sphere": {"radius": "big"}, "surface": "wood"}]})");
+  CHECK(holds(e.what, "expected a number, found the string \"big\""));
+
+  e = error_of(R"({"objects": [{"sphere": {"center": [1, 2]}, "surface": "wood"}]})");
+  CHECK(e.where == "s.json: objects[0].sphere.center");
+  CHECK(holds(e.what, "expected 3 numbers, found 2"));
+
+  e = error_of(R"({"objects": [{"surface": "wood"}]})");
+  CHECK(holds(e.what, "one of `sphere`, `quad`, `disc` and `mesh`"));
+
+  e = error_of(R"({"objects": []})");
+  CHECK(holds(e.what, "no object"));
+
+  e = error_of("{}");
+  CHECK(holds(e.what, "missing key `objects`"));
+
+  e = error_of("[1]");
+  CHECK(holds(e.what, "expected an object"));
+
+  e = error_of(R"({"objects": [{"sphere": {}, "surface": "wodo"}]})");
+  CHECK(e.where == "s.json: objects[0].surface");
+  CHECK(e.what == "unknown surface `wodo`");
+  CHECK(holds(e.hint, "`wood`"));
+
+  e = error_of(R"({"objects": [{"quad": {"corner": [0,0,0], "u": [1,0,0], "v": [0,1,0]},
+                                "surface": "wood", "volume": "wax"}]})");
+  CHECK(holds(e.what, "closed"));
+
+  e = error_of(R"({"objects": [{"sphere": {}, "surface": "wood", "volume": "wx"}]})");
+  CHECK(e.where == "s.json: objects[0].volume");
+
+  e = error_of(with_ball(R"(, "camera": {"position": [0, 0, 0], "target": [0, 0, 0]})"));
+  CHECK(e.where == "s.json: camera.target");
+
+  e = error_of(with_ball(R"(, "camera": {"position": [0, 5, 0], "target": [0, 0, 0]})"));
+  CHECK(holds(e.what, "parallel"));
+
+  e = error_of(with_ball(R"(, "environment": {"image": "nowhere.exr"})"));
+  CHECK(e.where == "s.json: environment.image");
+
+  e = error_of(with_ball(R"(, "environment": {"constant": 1, "image": "x.exr"})"));
+  CHECK(e.where == "s.json: environment");
+
+  e = error_of(R"({"objects": [{"mesh": "nowhere.obj", "surface": "wood"}]})");
+  CHECK(e.where == "s.json: objects[0].mesh");
+
+  e = error_of(R"({"objects": [})");
+  CHECK(holds(e.what, "line 1, column"));
+
+  e = error_of("");
+  CHECK(e.where == "s.json");
+}
+
+TEST_CASE("the test object asks which surface when there are several, and the option answers") {
+  const std::string test = R"({"objects": [{"sphere": {}, "test": true}]})";
+  Error e = error_of(test);
+  CHECK(e.where == "--surface");
+  CHECK(holds(e.hint, "`marble`, `wood`"));
+  SceneSource source;
+  source.surface = "wod";
+  e = error_of(test, source);
+  CHECK(e.where == "--surface");
+  CHECK(holds(e.hint, "did you mean `wood`?"));
+  source.surface = "wood";
+  source.volume = "waxx";
+  e = error_of(test, source);
+  CHECK(e.where == "--volume");
+
+  HandProgram h;
+  h.matte("marble", 0.5);
+  h.volume("marble", 1, 1);
+  const Result<SceneData> one = parse_scene(h.program, {}, test, "s", "");
+  REQUIRE(bool(one));
+  CHECK(one->test_surface == "marble");
+  CHECK(one->test_volume == "marble");  // a volume fills the surface of its name
+}
+
+TEST_CASE("comments are allowed, transforms apply, and built-in scenes load") {
+  HandProgram h;
+  h.matte("x", 0.5);
+  const Result<SceneData> s = parse_scene(h.program, {}, R"({
+    // one object
+    "objects": [{"sphere": {"center": [1, 0, 0], "radius": 2}, "scale": 3, "rotate": [0, 0, 90],
+                 "translate": [0, 0, 7], "surface": "x"}] /* no camera */
+  })", "s", "");
+  REQUIRE(bool(s));
+  const Sphere& ball = std::get<Sphere>(s->objects[0].shape);
+  CHECK(ball.radius == doctest::Approx(6));
+  CHECK(ball.centre.x == doctest::Approx(0).epsilon(1e-12));
+  CHECK(ball.centre.y == doctest::Approx(3));
+  CHECK(ball.centre.z == doctest::Approx(7));
+  for (const std::string& name : builtin_scenes())
+    CHECK_MESSAGE(bool(load_scene(h.program, {name, "", ""})), name);
+  const Result<Scene> none = load_scene(h.program, {"spere", "", ""});
+  REQUIRE_FALSE(bool(none));
+  CHECK(holds(none.error().hint, "did you mean `sphere`?"));
+}
+
+TEST_CASE("meshes come from OBJ and PLY") {
+  const auto folder = std::filesystem::temp_directory_path() / "mms_scene_test";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "t.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+  std::ofstream(folder / "t.ply") << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                                     "property float y\nproperty float z\nelement face 1\n"
+                                     "property list uchar int vertex_indices\nend_header\n"
+                                     "0 0 0\n2 0 0\n0 2 0\n3 0 1 2\n";
+  std::ofstream(folder / "bad.obj") << "nothing\n";
+  const Result<Mesh> quad = load_mesh((folder / "t.obj").string(), {});
+  REQUIRE(bool(quad));
+  CHECK(quad->triangles.size() == 2);
+  CHECK(area(Shape(*quad)) == doctest::Approx(1));
+  Transform twice;
+  twice.scale = 2;
+  const Result<Mesh> triangle = load_mesh((folder / "t.ply").string(), twice);
+  REQUIRE(bool(triangle));
+  CHECK(area(Shape(*triangle)) == doctest::Approx(8));
+  CHECK_FALSE(bool(load_mesh((folder / "bad.obj").string(), {})));
+  CHECK_FALSE(bool(load_mesh((folder / "none.obj").string(), {})));
+  CHECK(holds(load_mesh("/etc/hostname", {}).error().hint, ".obj"));
+  std::filesystem::remove_all(folder);
+}
