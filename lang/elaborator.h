@@ -9,7 +9,8 @@
 ///
 /// The class is one; its members are implemented by theme: elaborate_names.cpp (scopes, types),
 /// elaborate_values.cpp (nodes, conversions, operators), elaborate_expr.cpp (expressions),
-/// elaborate_call.cpp (overloads, inlining, recursion), elaborate_top.cpp (items, descriptors).
+/// elaborate_call.cpp (overloads), elaborate_recursion.cpp (inlining), elaborate_top.cpp (items,
+/// descriptors), derive.cpp (derivatives).
 
 #include <deque>
 #include <set>
