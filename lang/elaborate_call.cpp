@@ -85,6 +85,11 @@ Value Elaborator::call_named(Context c, const Path& path, std::vector<BoundArgum
   if (b->form == Binding::Form::Type) return construct(b->type, args, span);
   if (b->form == Binding::Form::Value && types_.is_function(b->value.type))
     return call_function_value(b->value, std::move(args), span);
+  if (b->form == Binding::Form::Constant) {
+    const Value f = evaluate_constant(*b);
+    if (f.poison()) return {};
+    if (types_.is_function(f.type)) return call_function_value(f, std::move(args), span);
+  }
   if (b->form != Binding::Form::Functions) {
     if (b->form != Binding::Form::Value || !b->value.poison())
       diagnostics_.add(Diag::NotCallable, span, path.back().text)
@@ -102,8 +107,13 @@ Value Elaborator::call_named(Context c, const Path& path, std::vector<BoundArgum
     level(*b);
   } else {
     for (Scope* s = c.scope; s; s = s->parent) {
-      auto it = s->names.find(path[0].text);
-      if (it != s->names.end() && it->second.form == Binding::Form::Functions) level(it->second);
+      auto add = [&](Scope* from) {
+        auto it = from->names.find(path[0].text);
+        if (it != from->names.end() && it->second.form == Binding::Form::Functions)
+          level(it->second);
+      };
+      add(s);
+      for (Scope* i : s->imports) add(i);
     }
   }
   return call_candidates(levels, path.back().text, args, span);

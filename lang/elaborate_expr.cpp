@@ -16,6 +16,15 @@ using vm::SlotType;
 constexpr TypeId kLogic = TypeTable::kLogic, kInt = TypeTable::kInteger, kReal = TypeTable::kReal,
                  kComplex = TypeTable::kComplex, kSpec = TypeTable::kSpectrum;
 
+/// `x ^ 3` with a small literal is multiplied out, whatever x is; any other power is a call. The
+/// text decides, not what is known at link, so that the value never depends on that.
+std::optional<std::int64_t> literal_power(const Expr& exponent) {
+  constexpr std::int64_t kLargest = 16;
+  const bool small =
+      exponent.form == Expr::Form::Integer && 1 <= exponent.integer && exponent.integer <= kLargest;
+  return small ? std::optional(exponent.integer) : std::nullopt;
+}
+
 }  // namespace
 
 Value Elaborator::expr(Context c, ExprHandle h) {
@@ -53,7 +62,7 @@ Value Elaborator::expr(Context c, ExprHandle h) {
       *f = {c.graph, h, c.scope, e.path, std::nullopt, e.span};
       if (e.form == Expr::Form::FunctionValue && e.path.empty()) f->op = e.op;
       if (!e.path.empty()) {
-        const Binding* b = find(c, e.path);
+        Binding* b = find(c, e.path);
         if (!b) {
           unknown_name(c, e.path, Diag::UnknownFunction);
           break;
@@ -61,6 +70,13 @@ Value Elaborator::expr(Context c, ExprHandle h) {
         if (b->form == Binding::Form::Value && types_.is_function(b->value.type)) {
           v = b->value;
           break;
+        }
+        if (b->form == Binding::Form::Constant) {
+          const Value k = evaluate_constant(*b);
+          if (types_.is_function(k.type) || k.poison()) {
+            v = k;
+            break;
+          }
         }
         if (b->form != Binding::Form::Functions) {
           diagnostics_.add(Diag::NotCallable, e.span, e.path.back().text);
@@ -162,7 +178,9 @@ Value Elaborator::expr_name(Context c, const Expr& e) {
     case Binding::Form::Functions: {
       const bool has_plain =
           std::any_of(b->functions.begin(), b->functions.end(),
-                      [](FunctionDecl* d) { return d->function().formals.empty(); });
+                      [](FunctionDecl* d) { return d->function().formals.empty(); }) ||
+          std::any_of(b->rows.begin(), b->rows.end(),
+                      [](const vm::Builtin* r) { return r->signature.ends_with("()"); });
       if (has_plain) return call_named(c, e.path, {}, e.span);
       diagnostics_.add(Diag::FunctionNotValue, e.span, e.path.back().text)
           .help(fmt::format("call it, `{0}(...)`, or write `#{0}` for the function itself",
@@ -234,6 +252,9 @@ Value Elaborator::expr_binary(Context c, const Expr& e) {
     }
   }
   const Value a = expr(c, e.args[0]);
+  if (const auto n = e.op == Operator::Pow ? literal_power((*c.graph)[e.args[1]]) : std::nullopt)
+    if (TypeTable::is_number(a.type) || types_.scalar(a.type) == kReal)
+      return repeated_square(a, *n, e.span);
   const Value b = expr(c, e.args[1]);
   return binary(e.op, a, b, e.span);
 }
@@ -322,10 +343,6 @@ Value Elaborator::array_of(std::vector<Value> parts, const std::vector<Span>& sp
 
 Value Elaborator::expr_array(Context c, const Expr& e) {
   const std::size_t columns = e.args.size() / std::max<std::size_t>(e.rows, 1);
-  if (columns * e.rows != e.args.size()) {
-    diagnostics_.add(Diag::RaggedArray, e.span);
-    return {};
-  }
   std::vector<Value> rows;
   std::vector<Span> row_spans;
   for (std::size_t r = 0; r < e.rows; ++r) {

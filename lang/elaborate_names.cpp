@@ -11,7 +11,7 @@ namespace mms::lang {
 
 Scope* Elaborator::new_scope(Scope* parent, bool library) {
   scopes_.push_back(
-      {parent, library || (parent && parent->library && parent != library_scope_), {}});
+      {parent, library || (parent && parent->library && parent != library_scope_), {}, {}});
   return &scopes_.back();
 }
 
@@ -92,6 +92,8 @@ Binding* Elaborator::find(Scope* scope, std::string_view name) {
   for (Scope* s = scope; s; s = s->parent) {
     auto it = s->names.find(name);
     if (it != s->names.end()) return &it->second;
+    for (Scope* i : s->imports)
+      if (it = i->names.find(name); it != i->names.end()) return &it->second;
   }
   return nullptr;
 }
@@ -145,6 +147,7 @@ int Elaborator::resolve_dim(Context c, const TypeExpr::Dim& d, const Generics* g
     }
     const Value v = b->form == Binding::Form::Constant ? evaluate_constant(*b) : b->value;
     const auto n = known_integer(v);
+    if (!n && unknown_arguments_) return -1;
     if (!n) {
       diagnostics_.add(Diag::NeedsConstant, d.span, "the size of an array");
       return -1;

@@ -45,7 +45,10 @@ Value Elaborator::invoke(FunctionDecl* d, const std::vector<Value>& formals, con
     return call_instance(d, formals, g, result, span);
   const bool too_much = frames_.size() >= static_cast<std::size_t>(vm::limits::kInlineDepth) ||
                         (again && inlined_ - frames_[first].inlined > kUnrolledCalls);
-  if (again && (dynamic_ > frames_[first].dynamic || too_much)) throw Recursion{first};
+  // What the machine cannot compute is unrolled as long as it may end.
+  const bool dynamic_choice =
+      again && dynamic_ > frames_[first].dynamic && types_.is_numeric(result);
+  if (dynamic_choice || (again && too_much)) throw Recursion{first};
   if (too_much) {
     diagnostics_.add(Diag::TooDeep, span, vm::limits::kInlineDepth);
     return {};
@@ -150,6 +153,7 @@ Value Elaborator::call_instance(FunctionDecl* d, const std::vector<Value>& forma
                                 const Generics& g, TypeId result, Span span) {
   const std::string& name = d->function().name.text;
   if (!types_.is_numeric(result)) {
+    if (unknown_arguments_) return {};
     diagnostics_.add(Diag::UnboundedRecursion, span, name, types_.spell(result))
         .note(d->function().header, "it calls itself under a condition known only at run time")
         .help(
@@ -186,7 +190,8 @@ Value Elaborator::call_instance(FunctionDecl* d, const std::vector<Value>& forma
     std::vector<Value> inside;
     for (const Value& v : formals) {
       if (!types_.is_numeric(v.type)) {
-        if (v.material) diagnostics_.add(Diag::UnboundedRecursion, span, name, "material");
+        if (v.material && !unknown_arguments_)
+          diagnostics_.add(Diag::UnboundedRecursion, span, name, "material");
         inside.push_back(v);
         continue;
       }

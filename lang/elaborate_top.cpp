@@ -125,7 +125,10 @@ void Elaborator::import(const Graph& from, const Import& i, Scope* scope) {
   for (const fs::path& place : places) {
     const std::string key = fs::weakly_canonical(place).string();
     auto known_file = imported_.find(key);
-    if (known_file != imported_.end()) return name_it(known_file->second);
+    if (known_file != imported_.end()) {
+      if (!i.as && known_file->second != scope) scope->imports.push_back(known_file->second);
+      return name_it(known_file->second);
+    }
     std::optional<std::string> text = read_file(place);
     if (!text) continue;
     dependencies.push_back(place.string());
@@ -269,7 +272,9 @@ void Elaborator::check_function(FunctionDecl* d) {
   }
   const TypeId result = resolve_type(c, f.result, nullptr);
   if (result == TypeTable::kPoison) return;
+  unknown_arguments_ = !formals.empty();
   const Value v = invoke(d, formals, {}, result, f.header);
+  unknown_arguments_ = false;
   if (f.formals.empty() && !d->library) export_value(f.name.text, v);
 }
 
@@ -358,6 +363,8 @@ void Elaborator::run(std::span<const Graph> graphs) {
   load_library();
   program_scope_ = new_scope(library_scope_);
   function_ = new_function("params");
+  for (const Graph& g : graphs)  // an import of one of these is no other file
+    imported_[std::filesystem::weakly_canonical(g.source->name).string()] = program_scope_;
   for (const Graph& g : graphs) add_graph(g, program_scope_);
   for (const auto& [name, text] : options_.params) {
     const bool there = std::any_of(params.begin(), params.end(),

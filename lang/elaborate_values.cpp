@@ -265,6 +265,7 @@ Value Elaborator::choose(Ref condition, const Value& a, const Value& b, Span spa
       v.parts.push_back(choose(condition, a.parts[i], b.parts[i], span));
     return v;
   }
+  if (unknown_arguments_) return {};
   diagnostics_.add(Diag::DynamicChoice, span, types_.spell(a.type))
       .help("choose between results instead: call both functions inside `select`");
   return {};
@@ -442,19 +443,18 @@ Value Elaborator::complex_arithmetic(Operator op, const Value& a, const Value& b
   }
 }
 
+/// a^n, n >= 1, by repeated squaring, lowest bit of n first.
 Value Elaborator::repeated_square(const Value& a, std::int64_t n, Span span) {
-  if (n == 1) return a;
-  const Value half = repeated_square(a, n / 2, span);
-  const Value square = arithmetic(Operator::Mul, half, half, span);
-  return n % 2 ? arithmetic(Operator::Mul, square, a, span) : square;
+  std::optional<Value> product;
+  for (Value square = a.type == kInt ? widen(a, kReal) : a;;
+       square = arithmetic(Operator::Mul, square, square, span)) {
+    if (n & 1) product = product ? arithmetic(Operator::Mul, *product, square, span) : square;
+    n >>= 1;
+    if (n == 0) return *product;
+  }
 }
 
-/// `x ^ n` for a small integer n known at link time is multiplied out, whatever x is.
 Value Elaborator::power(const Value& a, const Value& b, Span span) {
-  constexpr std::int64_t kLargest = 16;
-  const auto n = known_integer(b);
-  if (n && *n >= 1 && *n <= kLargest)
-    return repeated_square(a.type == kInt ? widen(a, kReal) : a, *n, span);
   if (a.type == kComplex || b.type == kComplex)
     return call_library("pow", {widen(a, kComplex), widen(b, kComplex)}, span);
   if (b.type == kInt && a.type != kSpec)

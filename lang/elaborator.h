@@ -257,7 +257,9 @@ class Elaborator {
   std::vector<Frame> frames_;
   std::size_t inlined_ = 0;
   vm::SourceLine line_;
-  bool full_ = false;  ///< a limit was hit and reported: stop making nodes
+  bool unknown_arguments_ = false;  ///< a function is checked for arguments nobody knows: what must
+                                    ///< be known at link may still be so in every call of it
+  bool full_ = false;               ///< a limit was hit and reported: stop making nodes
 };
 
 }  // namespace mms::lang

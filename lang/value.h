@@ -88,6 +88,7 @@ struct Binding {
 struct Scope {
   Scope* parent = nullptr;
   bool library = false;
+  std::vector<Scope*> imports;  ///< of files that another scope took in first
   std::map<std::string, Binding, std::less<>> names;
 };
 

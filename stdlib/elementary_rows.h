@@ -237,7 +237,8 @@ inline constexpr vm::Builtin kElementaryRows[] = {
          .doc = "x limited to [low, high]; `high` where low > high; NaN where x is NaN; a bound "
                 "that is NaN does not act.",
          .example = "clamp(1.5, 0.0, 1.0)",
-         .derivative = "step(low, x) * step(x, high); 1 - step(low, x); 1 - step(x, high)",
+         .derivative = "step(low, x) * step(x, high); (1 - step(low, x)) * step(low, high); "
+                       "1 - step(max(x, low), high)",
          .cost = 2}),
     vm::builtin<AbsI>(
         {.signature = "integer abs(integer x)",

@@ -13,6 +13,9 @@ const real e = 2.71828182845904523536;
 /// `a` at t = 0, `b` at t = 1, straight between and beyond.
 generic T mix(generic T a, b, real t) = a + (b - a) * t;
 
+/// `mix` of numbers; integers widen.
+real mix(real a, b, t) = a + (b - a) * t;
+
 /// x limited to [0, 1].
 real saturate(real x) = clamp(x, 0.0, 1.0);
 

@@ -176,7 +176,8 @@ class Examination {
       for (const lang::Note& n : d.notes) all += "\n" + n.text;
       if (all.find(m.text) == all.npos) return false;
     }
-    if (d.span.source != compiled_.source.get()) return m.line == 0;
+    const bool nowhere = d.span.source != compiled_.source.get() || d.span.end == 0;
+    if (nowhere || m.line == 0) return nowhere && m.line == 0;
     const lang::Position begin = lang::position_at(*d.span.source, d.span.begin);
     const std::uint32_t line_end =
         d.span.source->line_starts[begin.line - 1] +
@@ -332,7 +333,7 @@ class Examination {
       const auto found = values_of<double>(program(), d->shade.gradient[direction],
                                            d->shade.function, exact, kLanes)[0];
       int compared = 0;
-      for (std::size_t i = 0; i < kLanes; ++i) {
+      for (std::size_t i = 1; i < kLanes; ++i) {  // lane 0 is no random point: it may be on a kink
         const double coarse = (up[i] - down[i]) / (2 * kStep), fine = (up2[i] - down2[i]) / kStep;
         const double unit = std::fabs(here[i]) + std::fabs(fine) + 1e-12;
         if (!(std::fabs(coarse - fine) <= 0.5 * kTolerance * unit)) continue;
@@ -393,7 +394,7 @@ void check_agreement(const lang::SourcePtr& source, const lang::LinkOptions& opt
       if (!what.empty()) failures.push_back(fmt::format("{}: {} ({})", all[k].name, what, how));
     };
     const bool slow = !whole.faults.empty();  // a million steps in each lane
-    for (std::size_t l = 1; l < levels.size(); ++l) {
+    for (std::size_t l = slow ? 2 : 1; l < levels.size(); ++l) {
       const vm::Program& p = levels[l].linked->program;
       const Run other = evaluate(p, vm::Executable(p), points_of(p)[k], in, width);
       report(difference(whole, other, 0, width), l == 1 ? "O2 and O1" : "O2 and O0");
@@ -410,7 +411,7 @@ void check_agreement(const lang::SourcePtr& source, const lang::LinkOptions& opt
       report(difference(whole, evaluate(best, executable, all[k], one, 1), lane, 1), "one lane");
       if (slow) break;
     }
-    if (slow) continue;
+    if (slow || std::isinf(near)) continue;
     const Run exact = evaluate(best, executable, all[k], in64, width);
     for (std::size_t s = 0; s < whole.values.size(); ++s)
       for (std::size_t i = 0; i < whole.values[s].size(); ++i) {

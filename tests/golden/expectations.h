@@ -65,7 +65,8 @@ struct Outcome {
 /// Compiles the script and checks all that it says.
 Outcome examine(const lang::SourcePtr& source, Thoroughness how = Thoroughness::Everything);
 
-/// All levels, lane counts and machines agree; what does not is added to `failures`.
+/// All levels, lane counts and machines agree; what does not is added to `failures`. The double
+/// machine is left out where `near` is infinite.
 void check_agreement(const lang::SourcePtr& source, const lang::LinkOptions& options, double near,
                      std::vector<std::string>& failures);
 

@@ -15,7 +15,7 @@
 //   // check-gradient: FORM NAME     the derived gradient agrees with central differences
 //   //   ^^^^ error E0203[: text]    a message about the line above, at just those columns
 //   //   vvvv warning W0401[: text]  a message about the line below
-//   // error E0303[: text]           a message without a place
+//   // error E0311[: text]           a message without a place in this file
 //   // param: name=expression        links with that --param
 //   // near: T            bound of |float - double| / max(1, |double|), instead of kNear
 //   // known-issue: text  in the first line: the script fails, and must be unmarked when it passes
@@ -81,11 +81,15 @@ TEST_CASE("golden scripts are many, and each says its rule first") {
   }
 }
 
-/// Messages that no script in a file can provoke, and who does.
+/// Messages that no script of readable size provokes, and what does.
 const std::map<std::string, std::string> kElsewhere = {
+    {"E0100", "a hundred errors: limits_test.cpp"},
+    {"E0160", "257 brackets: limits_test.cpp"},
+    {"E0161", "1025 operators: limits_test.cpp"},
     {"E0162", "a source of 64 MiB: limits_test.cpp"},
     {"E0303", "a million operations: limits_test.cpp"},
     {"E0306", "an option of the command line, without a place in a script: limits_test.cpp"},
+    {"E0307", "4097 recursive functions: limits_test.cpp"},
 };
 
 TEST_CASE("every message is provoked by a golden script") {

@@ -12,3 +12,8 @@ real varying() = (s * $position.z) * s - 1.00048828125 * $position.z;   // expec
 real dynamic()
     x = s * $position.z;
     return x * x - 1.00048828125;                      // expect: 5.960464477539063e-08
+// Of two products the left one is fused with the rounded right one.
+real left() = s * s - s * s;                           // expect: 5.960464477539063e-08
+real array() = ([s, s] * s - 1.00048828125).y;         // expect: 5.960464477539063e-08
+spectrum spectral() = spectrum(s) * s - 1.00048828125; // expect: 5.960464477539063e-08
+integer whole() = 3 * 4 + 5;                           // expect: 17

@@ -1,0 +1,3 @@
+// `$` is followed by a name.
+real f() = $;
+//         ^ error E0115

@@ -1,0 +1,3 @@
+// Values are defined in bodies.
+   scale = 4.0;
+// ^^^^^ error E0129

@@ -1,0 +1,3 @@
+// Rows are equally long.
+const m = [1, 2; 3];
+//               ^ error E0131

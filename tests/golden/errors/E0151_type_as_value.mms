@@ -1,0 +1,3 @@
+// A type has no value.
+const a = real;
+//        ^^^^ error E0151

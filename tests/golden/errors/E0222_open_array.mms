@@ -1,0 +1,3 @@
+// Only formals leave sizes open.
+real[] f() = [1, 2];
+//   ^ error E0222

@@ -1,0 +1,3 @@
+// A source that defines nothing.
+;
+// error E0311: begin with

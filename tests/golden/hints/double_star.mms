@@ -1,0 +1,3 @@
+// A power is `^`.
+const a = 2 ** 3;
+//          ^^ error E0141: write `^`

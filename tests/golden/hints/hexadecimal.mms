@@ -1,0 +1,3 @@
+// Numbers are decimal.
+const a = 0x1F;
+//        ^^^^ error E0112

@@ -1,0 +1,3 @@
+// An exponent has digits.
+const a = 1e+;
+//        ^^^ error E0110

@@ -1,0 +1,2 @@
+// Has an error.
+real broken(real x) = x + nowhere;

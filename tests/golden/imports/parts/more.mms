@@ -1,0 +1,3 @@
+// Imports what its importer imports too.
+import "shapes.mms";
+real four_of(real x) = twice_of(twice_of(x));

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// The limits of vm/limits.h that a script can reach: one script at the limit, which links, and one
+// past it, which says so. What is too long for a file under tests/golden is written here.
+#include <doctest/doctest.h>
+
+#include "tests/golden/evaluate.h"
+#include "vm/limits.h"
+
+namespace mms::golden {
+namespace {
+
+namespace limits = vm::limits;
+
+std::string repeated(std::string_view what, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += what;
+  return all;
+}
+
+/// The codes of all messages, each once for each message.
+std::vector<std::string> codes(const Compiled& c) {
+  std::vector<std::string> all;
+  for (const lang::Diagnostic& d : c.diagnostics.all()) all.emplace_back(lang::info(d.id).code);
+  return all;
+}
+
+using Codes = std::vector<std::string>;
+
+double only_value(const Compiled& c) {
+  REQUIRE(c.linked);
+  REQUIRE(!vm::verify(c.linked->program));
+  const vm::Program& p = c.linked->program;
+  auto in = points<float>(vm::kLaneMultiple);
+  const Point point = points_of(p).at(p.exports.size() - 1);
+  const Run r = evaluate(p, vm::Executable(p), point, in, 1);
+  REQUIRE(r.faults.empty());
+  return r.values.at(0).at(0);
+}
+
+TEST_CASE("errors: after a hundred, one more") {
+  std::string text;
+  for (int i = 0; i < 150; ++i) text += fmt::format("const a{} = nope{};\n", i, i);
+  const Codes all = codes(compile(text));
+  REQUIRE(all.size() == lang::kMaxErrors + 1);
+  CHECK(all.back() == "E0100");
+}
+
+TEST_CASE("nesting of brackets") {
+  auto brackets = [](int n) {
+    return compile("const a = " + repeated("(", n) + "1" + repeated(")", n) + ";");
+  };
+  // The expression itself is one level.
+  CHECK(only_value(brackets(limits::kNesting - 1)) == 1);
+  CHECK(codes(brackets(limits::kNesting)) == Codes{"E0160"});
+}
+
+TEST_CASE("operations deep") {
+  auto sum = [](int terms) { return compile("real a() = $time" + repeated(" + 1", terms) + ";"); };
+  CHECK(only_value(sum(4 * limits::kNesting - 1)) == 4 * limits::kNesting - 1);
+  CHECK(codes(sum(4 * limits::kNesting)) == Codes{"E0161"});
+}
+
+TEST_CASE("bytes of a source") {
+  const std::string text = "const a = 1;";
+  const int room = limits::kSourceBytes - static_cast<int>(text.size());
+  CHECK(only_value(compile(text + std::string(static_cast<std::size_t>(room), ' '))) == 1);
+  CHECK(codes(compile(text + std::string(static_cast<std::size_t>(room) + 1, ' '))) ==
+        Codes{"E0162"});
+}
+
+TEST_CASE("operations after inlining") {
+  // Each function calls the one before twice: 2^n sums of something nobody knows.
+  auto doubling = [](int n) {
+    std::string text = "real f0(real x) = sin(x + $time);\n";
+    for (int i = 1; i <= n; ++i)
+      text += fmt::format("real f{0}(real x) = f{1}(x + {0}) + f{1}(x - {0});\n", i, i - 1);
+    return compile(text + fmt::format("real a() = f{}($position.z);\n", n));
+  };
+  CHECK(std::isfinite(only_value(doubling(8))));
+  CHECK(codes(doubling(20)) == Codes{"E0303"});
+}
+
+TEST_CASE("functions inlined into one another") {
+  auto chain = [](int n) {
+    std::string text = "real f1(real x) = x + 1;\n";
+    for (int i = 2; i <= n; ++i)
+      text += fmt::format("real f{0}(real x) = f{1}(x) + 1;\n", i, i - 1);
+    return compile(text + fmt::format("real a() = f{}(0);\n", n));
+  };
+  CHECK(only_value(chain(limits::kInlineDepth - 1)) == limits::kInlineDepth - 1);
+  const Codes all = codes(chain(limits::kInlineDepth + 1));
+  REQUIRE(!all.empty());
+  for (const std::string& code : all) CHECK(code == "E0305");
+}
+
+TEST_CASE("a param that is not there") {
+  lang::LinkOptions options;
+  options.params = {{"scal", "2"}};
+  const Compiled c =
+      compile(lang::make_source("t", "param real scale = 1; const a = scale;"), options);
+  REQUIRE(codes(c) == Codes{"E0306"});
+  CHECK(c.diagnostics.all()[0].helps == std::vector<std::string>{"did you mean `scale`?"});
+}
+
+TEST_CASE("instances of recursive functions") {
+  auto loops = [](int n) {
+    std::string text;
+    for (int i = 0; i < n; ++i)
+      text +=
+          fmt::format("real f{0}(real x) = select x, if x > 1; f{0}(x + 1) otherwise end;\n", i);
+    return compile(text + "const a = 1;");
+  };
+  CHECK(loops(limits::kInstances).linked);
+  const Codes all = codes(loops(limits::kInstances + 1));
+  REQUIRE(!all.empty());
+  for (const std::string& code : all) CHECK(code == "E0307");
+}
+
+TEST_CASE("elements of an array") {
+  auto array = [](int n) {
+    return compile(
+        fmt::format("real f(real[{0}] v) = v[{1}];\nreal[{0}] g() = [0.0{2}];\nreal a() = f(g);\n",
+                    n, n - 1, repeated(", 1", n - 1)));
+  };
+  CHECK(only_value(array(limits::kAggregate)) == 1);
+  const Codes all = codes(array(limits::kAggregate + 1));
+  REQUIRE(!all.empty());
+  for (const std::string& code : all) CHECK(code == "E0223");
+}
+
+TEST_CASE("lobes of a material") {
+  auto lobes = [](int n) {  // n scattering models and n - 1 combiners
+    std::string text = "surface s bsdf = matte(0.5)";
+    return compile(text + repeated(" + matte(0.1)", n - 1) + "; end");
+  };
+  const Compiled most = lobes(limits::kLobes / 2);
+  REQUIRE(most.linked);
+  CHECK(!vm::verify(most.linked->program));
+  CHECK(most.linked->program.descriptors[0].shade.material.nodes.size() == limits::kLobes - 1);
+  CHECK(codes(lobes(limits::kLobes / 2 + 1)) == Codes{"E0302"});
+}
+
+}  // namespace
+}  // namespace mms::golden

@@ -1,0 +1,3 @@
+// An integer quotient by a constant zero.
+const a = 1 / 0;
+//        ^^^^^ warning W0403
