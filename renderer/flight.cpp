@@ -156,16 +156,16 @@ Flights::Need Flights::advance(Flight& f, Crossings& crossings, const PathView& 
   }
 }
 
-/// A stretch of homogeneous medium in closed form; true if the flight ended in it. Distances are
-/// drawn for the hero and weighed over all wavelengths (thesis (4.14), pdf_tr).
+/// A stretch of homogeneous medium in closed form; true if the flight ended in it. Where to scatter
+/// is drawn for the hero and weighed over all wavelengths (thesis (4.14), pdf_tr). Absorption only
+/// dims: if it took part in the choice, coloured absorption would tear the wavelengths apart.
 bool Flights::through_homogeneous(Flight& f, float length, const PathView& path) {
   ++counters_.media_steps;
   const Spectrumf extinction = f.scattering + f.absorption;
-  const Spectrumf passed = transmittance(extinction, length);
   if (f.errand == Errand::Shadow) {
-    // A path would have had to decide not to collide, with this very probability.
-    f.carried.beta *= passed;
-    f.carried.pdf *= passed;
+    // A path would have had to decide not to scatter, with this very probability.
+    f.carried.beta *= transmittance(extinction, length);
+    f.carried.pdf *= transmittance(f.scattering, length);
     if (f.carried.beta.is_black()) f.end = End::Lost;
     return f.end != End::Flying;
   }
@@ -176,18 +176,20 @@ bool Flights::through_homogeneous(Flight& f, float length, const PathView& path)
           extinction[k] > 0 ? -std::expm1(-extinction[k] * length) / extinction[k] : length;
     *path.radiance += f.carried.weighted(0) * f.emission * optical;
   }
-  const float hero = extinction[0];
+  const float hero = f.scattering[0];
   const float s = hero > 0 ? -std::log1p(-random(f, path)) / hero : kInfinity;
   if (s < length) {
-    const Spectrumf until = transmittance(extinction, s);
-    f.carried.happened(f.scattering * until, extinction * until);
+    f.carried.happened(f.scattering * transmittance(extinction, s),
+                       f.scattering * transmittance(f.scattering, s));
+    f.carried.rescale();
     f.t += s;
-    f.end = f.scattering[0] > 0 ? End::Medium : End::Lost;
+    f.end = End::Medium;
     return true;
   }
-  f.carried.happened(passed, passed);
+  f.carried.happened(transmittance(extinction, length), transmittance(f.scattering, length));
   f.carried.rescale();
-  return false;
+  if (f.carried.beta.is_black()) f.end = End::Lost;
+  return f.end != End::Flying;
 }
 
 /// Runs the script that a group of flights waits for, and lets each act on its answer.
@@ -221,7 +223,7 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
         scripts_.params(d.shade.emission_material, i, params_.data());
         f.emission *= volume_emission_shape(volume.shade_emission, params_.data(), -f.direction);
       }
-      if (need == Need::Collision) collide(f, volume, i, paths[f.path]);
+      if (need == Need::Collision) collide(f, volume, paths[f.path]);
     }
     return;
   }
@@ -258,11 +260,11 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
 
 /// A tentative collision of delta tracking (a path) or ratio tracking (a shadow ray): real, or
 /// with the fictitious matter that fills the medium up to its majorant.
-void Flights::collide(Flight& f, const CompiledDescriptor& volume, int, const PathView& path) {
+void Flights::collide(Flight& f, const CompiledDescriptor& volume, const PathView& path) {
   ++counters_.media_steps;
   f.medium_object = -1;  // valid at this point only
   const float majorant = float(volume.majorant);
-  Spectrumf scattered, nothing;  // what becomes of a colliding photon, per wavelength
+  Spectrumf scattered, nothing;  // probabilities, per wavelength; what is left is absorbed
   for (int k = 0; k < kWavelengths; ++k) {
     const float extinction = f.scattering[k] + f.absorption[k];
     // Beyond the bound that the author stated, the medium is as dense as the bound.
@@ -270,32 +272,23 @@ void Flights::collide(Flight& f, const CompiledDescriptor& volume, int, const Pa
     scattered[k] = f.scattering[k] * held / majorant;
     nothing[k] = std::max(0.0f, 1 - extinction * held / majorant);
   }
-  const Spectrumf either = scattered + nothing;
-  Spectrumf p_nothing;
-  for (int k = 0; k < kWavelengths; ++k) p_nothing[k] = either[k] > 0 ? nothing[k] / either[k] : 0;
+  // As in a homogeneous medium a path decides on scattering alone, and absorption dims it.
+  const Spectrumf p_on = Spectrumf(1.0f) - scattered;
   if (f.errand == Errand::Shadow) {
     f.carried.beta *= nothing;
-    f.carried.pdf *= p_nothing;
+    f.carried.pdf *= p_on;
     if (f.carried.beta.is_black()) f.end = End::Lost;
     return;
   }
   if (!f.emission.is_black()) *path.radiance += f.carried.weighted(0) * f.emission * (1 / majorant);
-  if (!(either[0] > 0)) {
-    f.end = End::Lost;
-    return;
+  if (random(f, path) < scattered[0]) {
+    f.carried.happened(scattered, scattered);
+    f.end = End::Medium;
+  } else {
+    f.carried.happened(nothing, p_on);
+    if (f.carried.beta.is_black()) f.end = End::Lost;
   }
-  if (random(f, path) < p_nothing[0]) {
-    f.carried.happened(nothing, p_nothing);
-    f.carried.rescale();
-    return;
-  }
-  if (!(p_nothing[0] < 1)) {  // the hero cannot scatter, and rounding drew it all the same
-    f.end = End::Lost;
-    return;
-  }
-  f.carried.happened(scattered, Spectrumf(1.0f) - p_nothing);
   f.carried.rescale();
-  f.end = End::Medium;
 }
 
 /// A semi-transparent surface: scattered there, or straight through with (1 - s)(1 - a).

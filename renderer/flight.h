@@ -91,7 +91,7 @@ class Flights {
   bool through_homogeneous(Flight& f, float length, const PathView& path);
   void answer(std::vector<Flight>& flights, const std::vector<PathView>& paths,
               std::span<const Request> requests);
-  void collide(Flight& f, const CompiledDescriptor& volume, int lane, const PathView& path);
+  void collide(Flight& f, const CompiledDescriptor& volume, const PathView& path);
   void cross(Flight& f, const Crossings& crossings, const ScriptPoint& point,
              const Spectrumf& scattering, const Spectrumf& absorption, const PathView& path);
   void add_crossing_emission(const Flight& f, const ScriptPoint& point, const Spectrumf& emitted,

@@ -141,7 +141,8 @@ void Integrator::gather() {
     Path& p = paths_[f.path];
     if (f.end == End::Free) {
       const Vec3d d(f.direction);
-      const Spectrumf weight = f.carried.weighted(world_.lights.pdf_environment(d));
+      const Spectrumf weight =
+          f.carried.weighted(world_.lights.pdf_environment(Vec3d(f.origin), d));
       p.radiance += weight * world_.lights.environment(d, p.cluster);
     } else if (f.end == End::Surface || f.end == End::Medium) {
       const bool medium = f.end == End::Medium;
@@ -188,8 +189,11 @@ void Integrator::shade(std::span<const Vertex> group) {
   }
   lanes_.clear();
   for (const Vertex& v : group) lanes_.push_back(&v.point);
-  scripts_.run(*d, EntryKind::Shade, lanes_);
   const CompiledDescriptor& c = world_.compiled.of(d);
+  if (medium && c.constant_material)
+    scripts_.rest();  // the coefficients were asked for on the way
+  else
+    scripts_.run(*d, EntryKind::Shade, lanes_);
   for (int i = 0; i < n; ++i) {
     const Vertex& v = group[i];
     float* params = &params_[i * stride];
@@ -215,6 +219,15 @@ void Integrator::shade(std::span<const Vertex> group) {
   }
 }
 
+/// Puts a flight that leaves a surface towards `direction` into the medium there.
+void Integrator::follow(Flight& f, const Vertex& v, Vec3d direction) const {
+  const Vec3d n = v.point.surface.geometric_normal;
+  const double in = dot(direction, n);
+  if (in * dot(v.point.view, n) >= 0) return;
+  world_.cross(f.media, v.from->hit.object, in < 0);
+  f.medium_object = -1;
+}
+
 /// Lights a vertex, and sends the path on in a direction drawn for the hero.
 void Integrator::scatter(const Vertex& v, const Scatterer& s) {
   Path& p = paths_[v.from->path];
@@ -235,9 +248,7 @@ void Integrator::scatter(const Vertex& v, const Scatterer& s) {
     f.origin = Vec3f(v.point.surface.position);
   } else {
     f.origin = ray_origin(v.point.surface, sampled->wi);
-    const double in = dot(sampled->wi, v.point.surface.geometric_normal);
-    if (in * dot(v.point.view, v.point.surface.geometric_normal) < 0)
-      world_.cross(f.media, v.from->hit.object, in < 0);
+    follow(f, v, sampled->wi);
   }
   f.direction = Vec3f(sampled->wi);
   f.end = End::Flying;
@@ -246,7 +257,6 @@ void Integrator::scatter(const Vertex& v, const Scatterer& s) {
   f.t_max = std::numeric_limits<float>::infinity();
   f.step = 0;
   f.stream = 2 * std::uint32_t(p.depth);
-  if (f.media.current() != v.from->media.current()) f.medium_object = -1;
   next_.push_back(f);
 }
 
@@ -258,10 +268,12 @@ void Integrator::connect(const Vertex& v, const Scatterer& s) {
   LightSample light = world_.lights.sample(from, p.sampler(coordinate_of(bounce, kLightU)),
                                            p.sampler(coordinate_of(bounce, kLightV)));
   if (!(light.pdf > 0)) return;
+  Flight f = *v.from;
+  if (!s.medium) follow(f, v, light.direction);
+  if (const int inside = f.media.current(); inside >= 0 && world_.sealed[inside]) return;
   const Scatterer::Sampled towards = s.evaluate(v.point, light.direction);
   if (towards.f.is_black()) return;
 
-  Flight f = *v.from;
   f.carried.beta *= towards.f;
   f.carried.light_pdf = f.carried.pdf;
   f.carried.pdf *= towards.pdf;
@@ -290,12 +302,6 @@ void Integrator::connect(const Vertex& v, const Scatterer& s) {
   f.t = 0;
   f.step = 0;
   f.stream = 2 * std::uint32_t(p.depth) + 1;
-  if (!s.medium) {
-    const double in = dot(light.direction, v.point.surface.geometric_normal);
-    if (in * dot(v.point.view, v.point.surface.geometric_normal) < 0)
-      world_.cross(f.media, v.from->hit.object, in < 0);
-  }
-  if (f.media.current() != v.from->media.current()) f.medium_object = -1;
   connections_.push_back({int(shadows_.size()), light});
   shadows_.push_back(f);
 }

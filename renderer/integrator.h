@@ -53,6 +53,7 @@ class Integrator {
   void gather();
   void shade(std::span<const Vertex> group);
   void scatter(const Vertex& v, const Scatterer& s);
+  void follow(Flight& f, const Vertex& v, Vec3d direction) const;
   void connect(const Vertex& v, const Scatterer& s);
   void light_connections();
   bool survives(Path& p, Carried& c, int bounce);

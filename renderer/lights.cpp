@@ -87,68 +87,92 @@ double TexelDensity::pdf(double x, double y) const {
 
 Lights::Lights(const SceneData& scene, const std::vector<double>& radiance)
     : scene_(&scene), choice_of_(scene.objects.size(), -1) {
-  const Vec3d focus = scene.camera.target;
-  double sum = 0;
-  const auto add = [&](Choice c, double irradiance) {
-    if (c.object >= 0) choice_of_[c.object] = int(choices_.size());
-    c.probability = irradiance;
-    sum += irradiance;
-    choices_.push_back(std::move(c));
-  };
   for (int i = 0; i < int(scene.objects.size()); ++i) {
     if (!(radiance[i] > 0)) continue;
     const Shape& shape = scene.objects[i].shape;
-    Choice c{i, 0, 0, {}, area(shape)};
+    Choice c{i, radiance[i], area(shape), bounds(shape).centre(), {}, {}};
+    if (std::holds_alternative<Quad>(shape) || std::holds_alternative<Disc>(shape))
+      c.facing = sample_surface(shape, 0.5, 0.5).normal;
     if (const Mesh* m = std::get_if<Mesh>(&shape)) {
       c.triangles.push_back(0);
       for (std::uint32_t t = 0; t < m->triangles.size(); ++t)
         c.triangles.push_back(c.triangles.back() + triangle_area(*m, t));
     }
-    // Radiance times the solid angle that half the area fills, at most that of the hemisphere.
-    const Vec3d to = bounds(shape).centre() - focus;
-    const double solid_angle = std::min(kTwoPi, 0.5 * c.area / std::max(dot(to, to), 1e-12));
-    add(std::move(c), radiance[i] * solid_angle);
-  }
-  const Environment& e = scene.environment;
-  double mean = e.image ? luminance(e.radiance) : 0;
-  if (mean > 0) {
-    const int w = e.image->width, h = e.image->height;
-    const auto at = [&](int x, int y) {
-      const auto& c = e.image->rgb[std::size_t(std::clamp(y, 0, h - 1)) * w + (x + w) % w];
-      return std::max(0.0, luminance({c[0], c[1], c[2]}));
-    };
-    std::vector<double> weight(std::size_t(w) * h);
-    double total = 0, norm = 0;
-    for (int y = 0; y < h; ++y)
-      for (int x = 0; x < w; ++x) {
-        const double sine = std::sin(kPi<double> * (y + 0.5) / h);
-        double box = 0;  // texels are blended, so a texel's light reaches into its neighbours
-        for (int dy = -1; dy <= 1; ++dy)
-          for (int dx = -1; dx <= 1; ++dx) box += at(x + dx, y + dy);
-        weight[std::size_t(y) * w + x] = box / 9 * sine;
-        total += box / 9 * sine;
-        norm += sine;
-      }
-    mean *= norm > 0 ? total / norm : 0;
-    if (total > 0) texels_ = TexelDensity(std::move(weight), w, h);
+    choice_of_[i] = int(choices_.size());
+    choices_.push_back(std::move(c));
   }
   // Scattering directions find an even environment better than any density of light directions
   // that knows nothing of the surface, so only a picture is sampled as a light.
-  if (mean > 0) add({kEnvironment, 0, 0, {}, 0}, mean * kPi<double>);
-  // A tenth is spread evenly, for lights that matter elsewhere than at the focus.
-  double cumulative = 0;
-  for (Choice& c : choices_) {
-    c.probability = 0.9 * c.probability / sum + 0.1 / double(choices_.size());
-    c.cumulative = cumulative += c.probability;
-    if (c.object == kEnvironment) environment_probability_ = c.probability;
-  }
+  if (scene.environment.image) add_environment();
+  double sum = 0;
+  for (Choice& c : choices_) sum += c.probability = irradiance(c, scene.camera.target);
+  for (Choice& c : choices_)
+    c.probability = (sum > 0 ? 0.9 * c.probability / sum : 0.9 / double(choices_.size())) +
+                    0.1 / double(choices_.size());
+}
+
+void Lights::add_environment() {
+  const EnvironmentImage& image = *scene_->environment.image;
+  const int w = image.width, h = image.height;
+  const auto at = [&](int x, int y) {
+    const auto& c = image.rgb[std::size_t(std::clamp(y, 0, h - 1)) * w + (x + w) % w];
+    return std::max(0.0, luminance({c[0], c[1], c[2]}));
+  };
+  std::vector<double> weight(std::size_t(w) * h);
+  double total = 0, norm = 0;
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) {
+      const double sine = std::sin(kPi<double> * (y + 0.5) / h);
+      double box = 0;  // texels are blended, so a texel's light reaches into its neighbours
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) box += at(x + dx, y + dy);
+      weight[std::size_t(y) * w + x] = box / 9 * sine;
+      total += box / 9 * sine;
+      norm += sine;
+    }
+  const double mean = luminance(scene_->environment.radiance) * total / norm;
+  if (!(mean > 0)) return;
+  texels_ = TexelDensity(std::move(weight), w, h);
+  environment_choice_ = int(choices_.size());
+  choices_.push_back({kEnvironment, mean, 0, {}, {}, {}});
+}
+
+/// Radiance times the solid angle that the light's visible area fills from afar, at most the
+/// hemisphere's; a closed shape shows a quarter of its area, a flat one its front.
+double Lights::irradiance(const Choice& c, Vec3d at) {
+  if (c.object == kEnvironment) return c.radiance * kPi<double>;
+  const Vec3d to = c.centre - at;
+  const double d2 = std::max(dot(to, to), 1e-12);
+  const bool flat = dot(c.facing, c.facing) > 0;
+  const double seen = flat ? std::max(0.0, -dot(to, c.facing) / std::sqrt(d2)) : 0.25;
+  return c.radiance * std::min(kTwoPi, c.area * seen / d2);
+}
+
+std::array<double, kLightsWeighed> Lights::weigh(Vec3d from) const {
+  const int n = int(choices_.size());
+  std::array<double, kLightsWeighed> p{};
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += p[i] = irradiance(choices_[i], from);
+  // A tenth is spread evenly, for what the estimate gets wrong.
+  for (int i = 0; i < n; ++i) p[i] = (sum > 0 ? 0.9 * p[i] / sum : 0.9 / n) + 0.1 / n;
+  return p;
+}
+
+double Lights::probability(int i, Vec3d from) const {
+  return choices_.size() <= kLightsWeighed ? weigh(from)[i] : choices_[i].probability;
 }
 
 LightSample Lights::sample(Vec3d from, double u, double v) const {
-  const Choice* c = &choices_[0];
-  while (c != &choices_.back() && u >= c->cumulative) ++c;
-  u = std::clamp((u - c->cumulative + c->probability) / c->probability, 0.0, 1 - 0x1p-53);
-  if (c->object == kEnvironment) return sample_environment(u, v);
+  std::array<double, kLightsWeighed> weighed{};
+  const bool few = choices_.size() <= kLightsWeighed;
+  if (few) weighed = weigh(from);
+  const auto p = [&](std::size_t i) { return few ? weighed[i] : choices_[i].probability; };
+  std::size_t chosen = 0;
+  double below = 0;
+  while (chosen + 1 < choices_.size() && u >= below + p(chosen)) below += p(chosen++);
+  u = std::clamp((u - below) / p(chosen), 0.0, 1 - 0x1p-53);
+  const Choice* c = &choices_[chosen];
+  if (c->object == kEnvironment) return sample_environment(from, u, v);
   LightSample s;
   s.object = c->object;
   const Shape& shape = scene_->objects[c->object].shape;
@@ -173,9 +197,10 @@ LightSample Lights::sample(Vec3d from, double u, double v) const {
 double Lights::pdf(Vec3d from, int object, const SurfacePoint& at) const {
   if (choice_of_[object] < 0) return 0;
   const Choice& c = choices_[choice_of_[object]];
+  const double chosen = probability(choice_of_[object], from);
   if (const Sphere* s = std::get_if<Sphere>(&scene_->objects[object].shape))
-    if (outside(*s, from)) return c.probability / (kTwoPi * one_minus_cos_cone(*s, from));
-  return to_solid_angle(c.probability / c.area, from, at);
+    if (outside(*s, from)) return chosen / (kTwoPi * one_minus_cos_cone(*s, from));
+  return to_solid_angle(chosen / c.area, from, at);
 }
 
 namespace {
@@ -194,22 +219,22 @@ Vec3d from_map(double x, double y, double rotation) {
 
 }  // namespace
 
-LightSample Lights::sample_environment(double u, double v) const {
+LightSample Lights::sample_environment(Vec3d from, double u, double v) const {
   LightSample s;
   const Environment& e = scene_->environment;
   const TexelDensity::Drawn d = texels_.sample(u, v);
   s.direction = from_map(d.x, d.y, e.rotation);
-  s.pdf = pdf_environment(s.direction);
+  s.pdf = pdf_environment(from, s.direction);
   return s;
 }
 
-double Lights::pdf_environment(Vec3d direction) const {
+double Lights::pdf_environment(Vec3d from, Vec3d direction) const {
   const Environment& e = scene_->environment;
-  if (environment_probability_ == 0) return 0;
+  if (environment_choice_ < 0) return 0;
+  const double chosen = probability(environment_choice_, from);
   const auto [x, y] = to_map(direction, e.rotation);
   const double sine = std::sqrt(std::max(0.0, 1 - direction.y * direction.y));
-  return sine > 0 ? environment_probability_ * texels_.pdf(x, y) / (kTwoPi * kPi<double> * sine)
-                  : 0;
+  return sine > 0 ? chosen * texels_.pdf(x, y) / (kTwoPi * kPi<double> * sine) : 0;
 }
 
 Rgb Lights::texel(double x, double y) const {

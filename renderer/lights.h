@@ -5,6 +5,7 @@
 /// Everything that sends light out: emitting objects and the environment. Offers sample, pdf and
 /// evaluate; what a scripted emitter radiates is asked of its script by the integrator.
 
+#include <array>
 #include <vector>
 
 #include "renderer/accel.h"
@@ -14,6 +15,9 @@
 namespace mms::renderer {
 
 inline constexpr int kEnvironment = -1;
+
+/// Up to so many lights are weighed anew for each point.
+inline constexpr int kLightsWeighed = 32;
 
 /// A direction towards a light, as seen from some point.
 struct LightSample {
@@ -48,14 +52,15 @@ class Lights {
 
   bool any() const { return !choices_.empty(); }
 
-  /// Draws a light by its estimated irradiance at the point the camera looks at, then a direction.
-  /// `u` chooses the light, and what is left of it the place on the light.
+  /// Draws a light by its estimated irradiance at `from` (where there are more than kLightsWeighed,
+  /// at the point the camera looks at), then a direction. `u` chooses the light, and what is left
+  /// of it the place on the light.
   LightSample sample(Vec3d from, double u, double v) const;
 
   /// Density, per steradian and choice included, of drawing the direction from `from` that meets
   /// `object` at `at`. 0 for what is not an emitter.
   double pdf(Vec3d from, int object, const SurfacePoint& at) const;
-  double pdf_environment(Vec3d direction) const;
+  double pdf_environment(Vec3d from, Vec3d direction) const;
 
   /// Radiance that comes from the environment, from far along `direction`.
   Spectrumf environment(Vec3d direction, const Cluster& cluster) const;
@@ -63,17 +68,23 @@ class Lights {
  private:
   struct Choice {
     int object;
-    double probability, cumulative;
+    double radiance, area;
+    Vec3d centre, facing;           ///< `facing` is zero where light leaves to all sides
     std::vector<double> triangles;  ///< cumulative area of a mesh's triangles
-    double area;
+    double probability = 0;         ///< as seen from the focus
   };
+  void add_environment();
+  static double irradiance(const Choice& c, Vec3d at);
+  /// Probability of drawing light `i` at `from`, for each light.
+  std::array<double, kLightsWeighed> weigh(Vec3d from) const;
+  double probability(int i, Vec3d from) const;
   Rgb texel(double x, double y) const;
-  LightSample sample_environment(double u, double v) const;
+  LightSample sample_environment(Vec3d from, double u, double v) const;
 
   const SceneData* scene_;
   std::vector<Choice> choices_;
   std::vector<int> choice_of_;  ///< object to choice, or -1
-  double environment_probability_ = 0;
+  int environment_choice_ = -1;
   TexelDensity texels_;
 };
 

@@ -33,6 +33,15 @@ bool semi_transparent(const SceneData& scene, const Compiled& compiled, const Ob
   return s.script ? compiled.of(s.script).semi_transparent : s.fixed.invisible;
 }
 
+bool sealed(const SceneData& scene, const Compiled& compiled, int i) {
+  const Object& o = scene.objects[i];
+  if (o.volume < 0 || semi_transparent(scene, compiled, o)) return false;
+  const Bounds box = bounds(o.shape);
+  for (const Object& other : scene.objects)
+    if (emits(scene, compiled, other) && overlap(box, bounds(other.shape))) return false;
+  return true;
+}
+
 namespace {
 
 /// Points of an object: on its surface, or anywhere in the box around it for its volume.

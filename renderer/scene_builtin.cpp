@@ -14,11 +14,12 @@ constexpr BuiltinScene kScenes[] = {
   // The test sphere: radius 1, resting on a matte checkered ground before a plain backdrop.
   // Most things are placed along the camera's own axes: turned by 29.87 degrees about y.
   "camera": {"position": [3.1, 1.75, 5.4], "target": [0, -0.12, 0], "fov": 30},
-  "environment": {"constant": [0.24, 0.25, 0.27]},
+  "environment": {"constant": [0.15, 0.16, 0.18]},
   "materials": {
     "ground": {"matte": 0.26, "checker": 0.40, "size": 0.5},
     "backdrop": {"matte": 0.3},
     "key": {"matte": 0, "emission": 7.5},
+    "top": {"matte": 0, "emission": 1.1},
     "rim": {"matte": 0, "emission": [4.6, 5.0, 5.6]},
     "grey90": {"matte": 0.90}, "grey59": {"matte": 0.591}, "grey36": {"matte": 0.362},
     "grey20": {"matte": 0.198}, "grey09": {"matte": 0.090}, "grey03": {"matte": 0.031}
@@ -30,6 +31,9 @@ constexpr BuiltinScene kScenes[] = {
     // Key light: large and soft, to the left, above and before the ball.
     {"name": "key", "disc": {"center": [-3.4, 3.9, 2.6], "normal": [3.4, -3.9, -2.6], "radius": 1.9},
      "rotate": [0, 29.87, 0], "surface": "key"},
+    // Top light: broad and dim, a second horizon for what mirrors.
+    {"name": "top", "quad": {"corner": [-2.6, 5.2, -3.4], "u": [5.2, 0, 0], "v": [0, 0, 4.4]},
+     "rotate": [0, 29.87, 0], "surface": "top"},
     // Rim light: a strip behind and to the right, which draws the edge of dark and glossy balls.
     {"name": "rim", "quad": {"corner": [3.155, 2.646, -2.239], "u": [-0.566, 0, -0.566], "v": [0.555, -2.892, -0.555]},
      "rotate": [0, 29.87, 0], "surface": "rim"},

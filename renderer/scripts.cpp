@@ -31,6 +31,9 @@ CompiledDescriptor compile(const vm::Program& p, const vm::Descriptor& d) {
   c.emits = !constant_equal(p, d.shade.emission, 0);
   c.bumps =
       !constant_equal(p, d.shade.gradient[0], 0) || !constant_equal(p, d.shade.gradient[1], 0);
+  c.constant_material = true;
+  for (const vm::LayoutNode& node : d.shade.material.nodes)
+    for (const vm::ValueSource& v : node.params) c.constant_material &= v.constant;
   if (d.form == vm::DescriptorForm::Surface) {
     c.semi_transparent = !constant_equal(p, d.shade.scattering, 1);
   } else {

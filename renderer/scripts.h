@@ -39,6 +39,7 @@ struct CompiledDescriptor {
   bool emits = false;                ///< emission is not constant zero
   bool semi_transparent = false;     ///< a surface whose scattering is not constant 1
   bool homogeneous = false;          ///< a volume whose coefficients do not depend on the place
+  bool constant_material = false;    ///< no number of `material` depends on a run
   bool bumps = false;                ///< gradient is not constant zero
   double majorant = 0;               ///< stated bound of a heterogeneous volume, 1/m
 };
@@ -80,6 +81,8 @@ class Scripts {
   /// The answers below hold until the next call.
   void run(const vm::Descriptor& d, EntryKind kind, std::span<const ScriptPoint* const> points);
   int width() const { return compiled_->width(); }
+  /// Stands in for a run where only constants will be asked for.
+  void rest() { given_up_.clear(); }
 
   float real(const vm::ValueSource& v, int lane) const;
   Spectrumf spectrum(const vm::ValueSource& v, int lane) const;

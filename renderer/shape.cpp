@@ -278,6 +278,11 @@ void Bounds::add(const Bounds& b) {
   add(b.high);
 }
 
+bool overlap(const Bounds& a, const Bounds& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+         a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
 Vec3f ray_origin(const SurfacePoint& p, Vec3d d) {
   const double side = dot(d, p.geometric_normal) < 0 ? -1 : 1;
   return Vec3f(p.position + p.geometric_normal * (side * 2 * p.error));

@@ -97,6 +97,7 @@ struct Bounds {
   double radius() const { return length(high - low) * 0.5; }
 };
 Bounds bounds(const Shape& s);
+bool overlap(const Bounds& a, const Bounds& b);
 
 /// Where a ray that leaves `p` towards `d` starts, so that it cannot meet the surface it left:
 /// moved along the geometric normal by more than the point's error.

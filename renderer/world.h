@@ -42,8 +42,9 @@ struct World {
   const Accel& accel;
   const Lights& lights;
   CameraRays camera;
-  Media camera_media;  ///< what the camera stands in
-  bool plain = true;   ///< no volume and nothing semi-transparent: rays end where they hit
+  Media camera_media;        ///< what the camera stands in
+  std::vector<bool> sealed;  ///< objects whose inside no light reaches unscattered
+  bool plain = true;         ///< no volume and nothing semi-transparent: rays end where they hit
   std::uint64_t seed = 0;
   int max_depth = 0;
 
@@ -65,6 +66,10 @@ struct World {
 
 /// Whether object `o` sends out light of its own.
 bool emits(const SceneData& scene, const Compiled& compiled, const Object& o);
+
+/// Whether everything between the inside of object `i` and any light is the object's own opaque
+/// surface: then shadow rays from inside are vain.
+bool sealed(const SceneData& scene, const Compiled& compiled, int i);
 
 /// Whether rays may pass object `o` without being scattered.
 bool semi_transparent(const SceneData& scene, const Compiled& compiled, const Object& o);

@@ -44,7 +44,8 @@ TEST_CASE("mean and variance are those of the textbook, in long double") {
   CHECK(f.variance[0] == doctest::Approx(double(squares / (n - 1) / n)).epsilon(1e-9));
 }
 
-TEST_CASE("what cannot be added is told apart, counts as a black sample, and leaves the sums alone") {
+TEST_CASE(
+    "what cannot be added is told apart, counts as a black sample, and leaves the sums alone") {
   PixelSums sums;
   CHECK(add_sample(sums, {1, 1, 1}) == SampleFate::Added);
   const PixelSums before = sums;

@@ -13,7 +13,8 @@ using namespace mms::renderer;
 namespace {
 
 /// Points in each elementary interval of sides 2^-d[0] x ... : all counts, by brute force.
-std::pair<int, int> interval_counts(int m, std::array<int, 4> d, std::uint64_t first, bool scrambled) {
+std::pair<int, int> interval_counts(int m, std::array<int, 4> d, std::uint64_t first,
+                                    bool scrambled) {
   std::vector<int> count(std::size_t(1) << (d[0] + d[1] + d[2] + d[3]));
   for (std::uint64_t n = first; n < first + (1u << m); ++n) {
     std::size_t cell = 0;
@@ -38,8 +39,9 @@ void compositions(int total, F f) {
 
 }  // namespace
 
-TEST_CASE("the sequence is a (1, 4)-sequence: every elementary interval of volume 2^(1-m) holds 2 "
-          "of each 2^m points") {
+TEST_CASE(
+    "the sequence is a (1, 4)-sequence: every elementary interval of volume 2^(1-m) holds 2 "
+    "of each 2^m points") {
   for (int m = 1; m <= 9; ++m)
     for (const std::uint64_t block : {0, 1, 5})
       compositions(m - 1, [&](std::array<int, 4> d) {
@@ -74,7 +76,8 @@ TEST_CASE("a scrambled digit depends on the digits above it only, and is flipped
   }
 }
 
-TEST_CASE("numbers are in [0, 1) and evenly spread, for every coordinate, over pixels and samples") {
+TEST_CASE(
+    "numbers are in [0, 1) and evenly spread, for every coordinate, over pixels and samples") {
   for (int coordinate : {0, 1, 2, 3, 4, 5, 6, 11, 200}) {
     constexpr int kBins = 64, kPixels = 64, kSamples = 64;
     std::array<int, kBins> count{};
@@ -93,7 +96,8 @@ TEST_CASE("numbers are in [0, 1) and evenly spread, for every coordinate, over p
   }
 }
 
-TEST_CASE("the first four coordinates of a pixel are stratified: 64 samples, one or two in each of 32") {
+TEST_CASE(
+    "the first four coordinates of a pixel are stratified: 64 samples, one or two in each of 32") {
   for (int coordinate = 0; coordinate < 4; ++coordinate) {
     std::array<int, 32> count{};
     for (int s = 0; s < 64; ++s) ++count[int(Sampler(1, 5, 9, std::uint64_t(s))(coordinate) * 32)];

@@ -32,7 +32,9 @@ bool holds(const std::string& text, const std::string& part) {
 
 const std::string kBall = R"({"sphere": {"radius": 1}, "surface": "wood"})";
 
-std::string with_ball(const std::string& rest) { return R"({"objects": [)" + kBall + "]" + rest + "}"; }
+std::string with_ball(const std::string& rest) {
+  return R"({"objects": [)" + kBall + "]" + rest + "}";
+}
 
 }  // namespace
 
@@ -131,7 +133,8 @@ TEST_CASE("comments are allowed, transforms apply, and built-in scenes load") {
     // one object
     "objects": [{"sphere": {"center": [1, 0, 0], "radius": 2}, "scale": 3, "rotate": [0, 0, 90],
                  "translate": [0, 0, 7], "surface": "x"}] /* no camera */
-  })", "s", "");
+  })",
+                                          "s", "");
   REQUIRE(bool(s));
   const Sphere& ball = std::get<Sphere>(s->objects[0].shape);
   CHECK(ball.radius == doctest::Approx(6));

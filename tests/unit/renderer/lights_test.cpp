@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/lights.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "base/hash.h"
+#include "base/warp.h"
+
+using namespace mms;
+using namespace mms::renderer;
+
+namespace {
+
+double u01(std::uint64_t i) { return to_unit(mix64(i)); }
+
+SceneData scene_with(Shape shape) {
+  SceneData s;
+  s.surfaces.emplace_back();
+  Object o;
+  o.shape = std::move(shape);
+  s.objects.push_back(std::move(o));
+  s.camera.target = {0, 0, 0};
+  return s;
+}
+
+/// Mean of 1 / pdf over drawn directions: the solid angle that the light fills, with its error.
+struct Estimate {
+  double value, error;
+};
+Estimate solid_angle(const Lights& lights, Vec3d from, bool front_only) {
+  const int n = 200000;
+  double sum = 0, squares = 0;
+  for (int i = 0; i < n; ++i) {
+    const LightSample s =
+        lights.sample(from, u01(2 * std::uint64_t(i)), u01(2 * std::uint64_t(i) + 1));
+    if (!(s.pdf > 0)) continue;
+    if (front_only && dot(s.direction, s.surface.geometric_normal) > 0) continue;
+    CHECK(s.pdf == doctest::Approx(lights.pdf(from, s.object, s.surface)));
+    sum += 1 / s.pdf;
+    squares += 1 / (s.pdf * s.pdf);
+  }
+  const double mean = sum / n;
+  return {mean, std::sqrt((squares / n - mean * mean) / n)};
+}
+
+}  // namespace
+
+TEST_CASE("a disc on its axis fills 2 pi (1 - h / sqrt(h^2 + r^2))") {
+  const SceneData s = scene_with(Disc{{0, 2, 0}, Frame<double>::around({0, -1, 0}), 1.5});
+  const Estimate e = solid_angle(Lights(s, {1.0}), {0, 0, 0}, false);
+  CHECK(std::abs(e.value - 2 * kPi<double> * (1 - 2 / 2.5)) < 4 * e.error);
+}
+
+TEST_CASE("a square seen from its axis fills 4 asin(a^2 / (a^2 + h^2)), half edge a") {
+  const SceneData s = scene_with(Quad{{-1, 2, -1}, {2, 0, 0}, {0, 0, 2}});
+  const Estimate e = solid_angle(Lights(s, {1.0}), {0, 0, 0}, false);
+  CHECK(std::abs(e.value - 4 * std::asin(1.0 / 5)) < 4 * e.error);
+}
+
+TEST_CASE("two triangles of a mesh fill what the square does, whatever their sizes") {
+  Mesh m;
+  m.positions = {{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}, {0, 2, 1}};
+  m.triangles = {{0, 1, 2}, {0, 2, 4}, {0, 4, 3}};
+  const SceneData s = scene_with(m);
+  const Estimate e = solid_angle(Lights(s, {1.0}), {0, 0, 0}, false);
+  CHECK(std::abs(e.value - 4 * std::asin(1.0 / 5)) < 4 * e.error);
+}
+
+TEST_CASE(
+    "a sphere fills 2 pi (1 - sqrt(1 - (r/d)^2)) from outside, exactly, and 4 pi from inside") {
+  const SceneData s = scene_with(Sphere{{0, 3, 0}, 1, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
+  const Lights lights(s, {1.0});
+  const Estimate out = solid_angle(lights, {0, 0, 0}, true);
+  CHECK(out.value == doctest::Approx(2 * kPi<double> * (1 - std::sqrt(8.0) / 3)).epsilon(1e-9));
+  const Estimate in = solid_angle(lights, {0.2, 3.1, -0.3}, false);
+  CHECK(std::abs(in.value - 4 * kPi<double>) < 4 * in.error);
+}
+
+TEST_CASE("a picture's density integrates to one, and sampling follows it") {
+  EnvironmentImage image{"", 8, 4, {}};
+  for (int i = 0; i < 32; ++i) {
+    const float v = i == 13 ? 50.0f : float(i % 5);
+    image.rgb.push_back({v, v, v});
+  }
+  SceneData s = scene_with(Sphere{});
+  s.environment.image = image;
+  s.environment.radiance = {1, 1, 1};
+  s.environment.rotation = 0.7;
+  const Lights lights(s, {0.0});
+  REQUIRE(lights.any());
+  double integral = 0, expected = 0, found = 0;
+  const int n = 400000;
+  const auto in_cap = [](Vec3d d) { return dot(d, normalize(Vec3d{0.3, 0.5, -0.8})) > 0.6; };
+  for (int i = 0; i < n; ++i) {
+    const double u = u01(2 * std::uint64_t(i)), v = u01(2 * std::uint64_t(i) + 1);
+    const Vec3d d = square_to_sphere(u, v);
+    const double pdf = lights.pdf_environment({0, 0, 0}, d) * 4 * kPi<double>;
+    integral += pdf / n;
+    expected += in_cap(d) ? pdf / n : 0;
+    const LightSample drawn = lights.sample({0, 0, 0}, u, v);
+    REQUIRE(drawn.object == kEnvironment);
+    CHECK(drawn.pdf > 0);
+    found += in_cap(drawn.direction) ? 1.0 / n : 0;
+  }
+  // The density is at most about 40 times the even one: deviation of the mean below 3 / sqrt(n).
+  CHECK(integral == doctest::Approx(1).epsilon(0.02));
+  CHECK(std::abs(found - expected) < 0.02);
+}
+
+TEST_CASE("with several lights, few or many, choices and places still integrate to the sum") {
+  SceneData s = scene_with(Quad{{-1, 2, -1}, {2, 0, 0}, {0, 0, 2}});
+  std::vector<double> radiance{1.0};
+  int more = 0;
+  SUBCASE("few: weighed at each point") { more = 5; }
+  SUBCASE("many: weighed once") { more = 40; }
+  for (int i = 0; i < more; ++i) {
+    Object o;
+    o.shape = Disc{{double(i + 2), 1, 0}, Frame<double>::around({-1, 0, 0}), 0.1};
+    s.objects.push_back(std::move(o));
+    radiance.push_back(0.5 * i);
+  }
+  const Lights lights(s, radiance);
+  const Vec3d from{0.1, 0, 0.2};
+  // The share of the square's light: mean of its 1 / pdf over all draws.
+  const int n = 400000;
+  double sum = 0, squares = 0;
+  for (int i = 0; i < n; ++i) {
+    const LightSample d =
+        lights.sample(from, u01(2 * std::uint64_t(i)), u01(2 * std::uint64_t(i) + 1));
+    if (d.object != 0 || !(d.pdf > 0)) continue;
+    sum += 1 / d.pdf;
+    squares += 1 / (d.pdf * d.pdf);
+  }
+  // Quadrature of cos / d^2 over the square.
+  double expected = 0;
+  for (int a = 0; a < 400; ++a)
+    for (int b = 0; b < 400; ++b) {
+      const Vec3d to = Vec3d{-1 + (a + 0.5) / 200, 2, -1 + (b + 0.5) / 200} - from;
+      expected += 2 / std::pow(dot(to, to), 1.5) / 40000;
+    }
+  const double mean = sum / n;
+  CHECK(std::abs(mean - expected) < 4 * std::sqrt((squares / n - mean * mean) / n) + 1e-5);
+}
+
+TEST_CASE("only what emits is a light, and an even environment is left to scattering") {
+  SceneData s = scene_with(Sphere{});
+  s.environment.radiance = {1, 1, 1};
+  const Lights lights(s, {0.0});
+  CHECK_FALSE(lights.any());
+  CHECK(lights.pdf_environment({0, 0, 0}, {0, 1, 0}) == 0);
+  CHECK(lights.pdf({0, 0, 3}, 0, surface_at(Sphere{}, {0, 0, 1})) == 0);
+}

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// The renderer with compiled scripts: what runs, how often, and what a budget fault does.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "hand_program.h"
+#include "lang/link.h"
+#include "lang/parser.h"
+#include "renderer/scene.h"
+#include "stdlib/stdlib.h"
+
+using namespace mms;
+using namespace mms::renderer;
+using namespace mms::renderer::test;
+
+namespace {
+
+vm::Program compile(const std::string& text) {
+  std::vector<lang::Library::Module> modules;
+  for (const stdlib::Module& m : stdlib::modules()) modules.push_back({m.name, m.text});
+  const lang::Library library{stdlib::builtins(), modules};
+  lang::Diagnostics diagnostics;
+  const lang::SourcePtr source = lang::make_source("t.mms", text);
+  std::vector<lang::Graph> graphs;
+  graphs.push_back(lang::parse(source, diagnostics));
+  auto linked = lang::link(graphs, library, {}, diagnostics);
+  REQUIRE_MESSAGE(linked.has_value(), lang::render(diagnostics));
+  return std::move(linked->program);
+}
+
+Scene scene_of(const vm::Program& p, const std::string& text) {
+  Result<SceneData> data = parse_scene(p, {}, text, "test", "");
+  REQUIRE_MESSAGE(bool(data), (data ? "" : data.error().where + ": " + data.error().what));
+  return Scene(std::make_shared<const SceneData>(std::move(*data)));
+}
+
+/// A wall that fills the view, in even light.
+const std::string kWall = R"({"camera": {"position": [0, 0, 3], "target": [0, 0, 0], "fov": 30},
+  "environment": {"constant": 1},
+  "objects": [{"quad": {"corner": [-1, -1, 0], "u": [2, 0, 0], "v": [0, 2, 0]}, "test": true}]})";
+const std::string kBall = R"({"camera": {"position": [0, 0, 5], "target": [0, 0, 0], "fov": 10},
+  "environment": {"constant": 1}, "objects": [{"sphere": {}, "test": true}]})";
+
+RenderOptions options(int side, int samples) {
+  RenderOptions o;
+  o.width = o.height = side;
+  o.samples = samples;
+  o.threads = 2;
+  return o;
+}
+
+}  // namespace
+
+TEST_CASE("a pattern is seen where it is written: half white, half grey over uv") {
+  const vm::Program p =
+      compile("surface a\n bsdf = matte(select 1.0, if $uv.x < 0.5; 0.25 otherwise; end);\nend\n");
+  Result<Rendered> r = render(p, scene_of(p, kWall), options(32, 16));
+  REQUIRE(bool(r));
+  // Even light on a flat wall, seen from before it: each pixel is its albedo, but for the noise of
+  // eight wavelengths, which the mean of 10 rows of 16 samples leaves below 0.5 %.
+  double left = 0, right = 0;
+  for (int y = 10; y < 20; ++y) {
+    left += r->film.xyz[std::size_t(y) * 32 + 8][1] / 10;
+    right += r->film.xyz[std::size_t(y) * 32 + 24][1] / 10;
+  }
+  CHECK(left == doctest::Approx(1).epsilon(0.02));
+  CHECK(right == doctest::Approx(0.25).epsilon(0.02));
+  CHECK(r->report.script_runs > 0);
+  CHECK(r->report.script_points == 32 * 32 * 16);
+  CHECK(r->report.batch_fill > 0.5);
+  CHECK(r->report.pass_runs == 0);
+  CHECK(r->report.emission_runs == 0);
+}
+
+TEST_CASE(
+    "a constant material runs nothing; a hole runs `pass`; a glow runs `emit` for its own light") {
+  const vm::Program constant = compile("surface a\n bsdf = matte(0.5);\nend\n");
+  CHECK(render(constant, scene_of(constant, kBall), options(16, 4))->report.script_runs == 0);
+
+  const vm::Program hole =
+      compile("surface a\n scattering = select 1.0, if $uv.x < 0.5; 0.0 otherwise; end;\nend\n");
+  Result<Rendered> r = render(hole, scene_of(hole, kBall), options(16, 4));
+  REQUIRE(bool(r));
+  CHECK(r->report.pass_runs > 0);
+  CHECK(r->report.emission_runs == 0);
+  const Mean seen = mean_luminance(r->film);
+  CHECK(std::abs(seen.value - 1) < 4 * seen.error);  // white, inside and out, in even light
+
+  const vm::Program glow = compile("surface a\n bsdf = matte(0.5); emission = $uv.x;\nend\n");
+  r = render(glow, scene_of(glow, R"({"environment": {"constant": 1}, "objects": [
+    {"sphere": {}, "test": true}, {"quad": {"corner": [-9, -1, 9], "u": [18, 0, 0], "v": [0, 0, -18]},
+     "surface": "floor"}], "materials": {"floor": {"matte": 0.5}},
+     "camera": {"position": [0, 3, 6], "target": [0, 0, 0]}})"),
+             options(16, 4));
+  REQUIRE(bool(r));
+  CHECK(r->report.emission_runs > 0);
+  CHECK(r->report.media_steps == 0);
+}
+
+TEST_CASE("a volume that varies is tracked: optical depth along the diameter of a linear density") {
+  // absorption 0.4 (1 + z) integrates to 0.8 over z in [-1, 1].
+  const vm::Program p =
+      compile("volume a\n absorption = 0.4 * (1 + $object_position.z); bound = 0.8;\nend\n");
+  const std::string narrow =
+      R"({"camera": {"position": [0, 0, 5], "target": [0, 0, 0], "fov": 0.01},
+    "environment": {"constant": 1}, "objects": [{"sphere": {}, "test": true}]})";
+  Result<Rendered> r = render(p, scene_of(p, narrow), options(16, 64));
+  REQUIRE(bool(r));
+  const Mean m = mean_luminance(r->film);
+  CHECK(std::abs(m.value - std::exp(-0.8)) < 4 * m.error);
+  CHECK(r->report.medium_runs > 0);
+}
+
+TEST_CASE("endless recursion is an error that names the line, before anything is rendered") {
+  const vm::Program p = compile(
+      "real spin(integer n)\n"
+      "  return select 0.0, if n == -1; spin(n + 1) otherwise; end;\n"
+      "surface a\n  bsdf = matte(spin(integer(1000 * $uv.x)));\nend\n");
+  const Result<Rendered> r = render(p, scene_of(p, kWall), options(8, 1));
+  REQUIRE_FALSE(bool(r));
+  CHECK(r.error().where.starts_with("t.mms:"));
+  CHECK(r.error().what.find("1048576") != std::string::npos);
+}
+
+TEST_CASE(
+    "what the probe missed is counted with its line, takes the default, and ends the render") {
+  // One thousandth of the wall recurses too deep; 256 points of the probe miss it (the seed is
+  // fixed).
+  const vm::Program p = compile(
+      "real spin(integer n)\n"
+      "  return select 0.0, if n == -1; 1 + spin(n + 1) otherwise; end;\n"
+      "surface a\n"
+      "  bsdf = matte(select spin(integer(10 * $uv.x)), if 0.5 < $uv.x and $uv.x < 0.501; 0.5 "
+      "otherwise; end);\n"
+      "end\n");
+  Result<Rendered> r = render(p, scene_of(p, kWall), options(32, 8));
+  REQUIRE_MESSAGE(bool(r), (r ? "" : r.error().what));
+  CHECK(r->report.fault_lanes > 0);
+  REQUIRE(r->report.faults.size() == 1);
+  CHECK(r->report.faults[0].where.starts_with("t.mms:"));
+  CHECK(r->report.faults[0].lanes == r->report.fault_lanes);
+  CHECK(r->report.dropped.count() == 0);
+  CHECK_FALSE(r->report.too_many_faults);
+
+  r = render(p, scene_of(p, kWall), options(128, 256));
+  REQUIRE(bool(r));
+  CHECK(r->report.too_many_faults);
+  CHECK(r->report.samples < 256);
+}
+
+TEST_CASE("bump tilts the light: a wall with height a x, lit from one side by a far small disc") {
+  // Lambert under a light along l: n . l with n = (-a, 0, 1) / sqrt(1 + a^2).
+  const double a = 0.5;
+  const vm::Program bumped =
+      compile("surface s\n bsdf = matte(0.5); height = 0.5 * $object_position.x;\nend\n");
+  const vm::Program flat = compile("surface s\n bsdf = matte(0.5);\nend\n");
+  const std::string lit = R"({"camera": {"position": [0, 0, 3], "target": [0, 0, 0], "fov": 1},
+    "materials": {"lamp": {"matte": 0, "emission": 1000}}, "objects": [
+    {"quad": {"corner": [-1, -1, 0], "u": [2, 0, 0], "v": [0, 2, 0]}, "test": true},
+    {"disc": {"center": [-60, 0, 80], "normal": [6, 0, -8], "radius": 2}, "surface": "lamp"}]})";
+  const Result<Rendered> b = render(bumped, scene_of(bumped, lit), options(16, 64));
+  const Result<Rendered> f = render(flat, scene_of(flat, lit), options(16, 64));
+  REQUIRE(bool(b));
+  REQUIRE(bool(f));
+  const double tilted = (0.6 * a + 0.8) / std::sqrt(1 + a * a);
+  // The same seed draws the same light points, so the ratio is free of their noise; the disc
+  // spans 2 degrees, and the patch 0.03 m: relative 1e-3.
+  CHECK(mean_luminance(b->film).value / mean_luminance(f->film).value ==
+        doctest::Approx(tilted / 0.8).epsilon(2e-3));
+}
