@@ -53,14 +53,24 @@ namespace detail {
 template <class T>
 struct Result {
   static constexpr int count = 1;
-  static void store(const T& r, void* const* out, int i) { static_cast<T*>(out[0])[i] = r; }
+  [[gnu::always_inline]] static void store(const T& r, void* const* out, int i) {
+    static_cast<T*>(out[0])[i] = r;
+  }
 };
 template <class T, std::size_t N>
 struct Result<std::array<T, N>> {
   static constexpr int count = N;
-  static void store(const std::array<T, N>& r, void* const* out, int i) {
-    for (std::size_t k = 0; k < N; ++k) static_cast<T*>(out[k])[i] = r[k];
+  [[gnu::always_inline]] static void store(const std::array<T, N>& r, void* const* out, int i) {
+    const Plain plain = __builtin_bit_cast(Plain, r);
+    for (std::size_t k = 0; k < N; ++k) static_cast<T*>(out[k])[i] = plain.values[k];
   }
+
+ private:
+  /// std::array's own operator[] would be an inline function compiled for one instruction set of
+  /// which the linker may keep the copy for everybody.
+  struct Plain {
+    T values[N];
+  };
 };
 
 template <auto Eval>
@@ -68,7 +78,8 @@ struct Lift;
 template <class Res, class... Args, Res (*Eval)(Args...)>
 struct Lift<Eval> {
   template <std::size_t... K>
-  static void loop(const void* const* in, void* const* out, int lanes, std::index_sequence<K...>) {
+  [[gnu::always_inline]] static void loop(const void* const* in, void* const* out, int lanes,
+                                          std::index_sequence<K...>) {
     const void* const args[] = {in[K]..., nullptr};
 #pragma GCC ivdep
     for (int i = 0; i < lanes; ++i)

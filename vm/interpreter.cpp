@@ -14,9 +14,9 @@ namespace mms::vm {
 namespace {
 
 constexpr std::size_t kCacheLine = 64;
-constexpr std::size_t kChunkBytes = std::size_t(1) << 20;
-constexpr int kWorkingSetBytes = 24 * 1024;  // most of an L1 data cache
-constexpr int kLeastWidth = 32, kMostWidth = 256;
+constexpr std::size_t kChunkBytes = std::size_t(1) << 16;
+constexpr int kWorkingSetBytes = 192 * 1024;  // well within an L2 cache
+constexpr int kLeastWidth = 32, kMostWidth = 512;
 
 constexpr int round_up(int lanes) {
   return (lanes + kLaneMultiple - 1) / kLaneMultiple * kLaneMultiple;
@@ -181,12 +181,17 @@ std::byte* Interpreter<R>::State::prepare(const LoweredCode& code) {
 template <class R>
 std::byte* Interpreter<R>::State::enter(const LoweredFunction& f, int lanes) {
   const int n = machine.lanes;
-  std::fill_n(spent.begin(), n, 0);
-  std::fill_n(alive.begin(), n, 1);
+  if (f.calls) {
+    std::fill_n(spent.begin(), n, 0);
+    std::fill_n(alive.begin(), n, 1);
+  }
   frames.reset();
   std::byte* frame = frames.push(frame_bytes<R>(f, n));
   std::int32_t* running = reinterpret_cast<std::int32_t*>(frame);
-  for (int i = 0; i < n; ++i) running[i] = i < lanes;
+  if (f.masked) {
+    std::fill_n(running, lanes, 1);
+    std::fill(running + lanes, running + n, 0);
+  }
   result_base = frame + std::size_t(f.masks) * n * sizeof(std::int32_t);
   return frame;
 }

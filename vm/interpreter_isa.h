@@ -50,60 +50,93 @@ class Frame {
 
   template <class F, class D, class A>
   void unary(const In& i) {
-    map1<F>(at<D>(i.dst), at<const A>(i.a), n_);
+    map1<F>(at<D>(i.dst), Block<A>{at<const A>(i.a)}, n_);
   }
   template <class F, class D, class A>
   void binary(const In& i) {
-    map2<F>(at<D>(i.dst), at<const A>(i.a), at<const A>(i.b), n_);
+    D* const d = at<D>(i.dst);
+    const Block<A> a{at<const A>(i.a)}, b{at<const A>(i.b)};
+    if (i.a.base() == Operand::Constant)
+      map2<F>(d, Same<A>{a[0]}, b, n_);
+    else if (i.b.base() == Operand::Constant)
+      map2<F>(d, a, Same<A>{b[0]}, n_);
+    else
+      map2<F>(d, a, b, n_);
+  }
+  /// `F`, or `Exact` where the divisor is a constant that has an exact reciprocal.
+  template <class F, class Exact>
+  void quotient(const In& i) {
+    if (i.b.base() != Operand::Constant || !has_exact_reciprocal(*at<const R>(i.b)))
+      return binary<F, R, R>(i);
+    const R b = *at<const R>(i.b);
+    map3<Exact>(at<R>(i.dst), Block<R>{at<const R>(i.a)}, Same<R>{b}, Same<R>{1 / b}, n_);
   }
   template <class F, class D, class A, class B>
   void ternary(const In& i) {
-    map3<F>(at<D>(i.dst), at<const A>(i.a), at<const B>(i.b), at<const B>(i.c), n_);
+    map_last2<F>(at<D>(i.dst), Block<A>{at<const A>(i.a)}, Block<B>{at<const B>(i.b)},
+                 Block<B>{at<const B>(i.c)}, i, n_);
+  }
+  /// map3 with the second and the third operand as they are.
+  template <class F, class D, class A, class B>
+  static void map_last2(D* d, Block<A> a, Block<B> b, Block<B> c, const In& i, int n) {
+    const bool same_b = i.b.base() == Operand::Constant, same_c = i.c.base() == Operand::Constant;
+    if (same_b && same_c)
+      map3<F>(d, a, Same<B>{b[0]}, Same<B>{c[0]}, n);
+    else if (same_b)
+      map3<F>(d, a, Same<B>{b[0]}, c, n);
+    else if (same_c)
+      map3<F>(d, a, b, Same<B>{c[0]}, n);
+    else
+      map3<F>(d, a, b, c, n);
   }
 
   /// Reals from one component of a spectrum operand to the next.
-  std::ptrdiff_t step(Operand o) const {
-    return o.splat() ? 0 : std::ptrdiff_t(stride_[o.base()] / sizeof(R));
+  ptrdiff_t step(Operand o) const {
+    return o.splat() ? 0 : ptrdiff_t(stride_[o.base()] / sizeof(R));
   }
+  /// Whether the components follow one another, as those of every result do.
+  bool is_run(Operand o) const { return !o.splat() && step(o) == n_; }
+  /// Whether one loop can take the operand through all components: they are a run or one number.
+  bool runs_through(Operand o) const { return o.base() == Operand::Constant || is_run(o); }
 
-  /// Calls `f(k, lanes)` for each wavelength k, or once for all where every operand is contiguous.
-  template <class... O, class F>
-  void each_wavelength(F f, O... operands) {
-    if (((step(operands) == n_) && ...)) return f(0, kWavelengths * n_);
+  /// Calls `f(k, lanes)` for each wavelength k, or once for all.
+  template <class F>
+  void each_wavelength(bool once, F f) {
+    if (once) return f(0, kWavelengths * n_);
     for (int k = 0; k < kWavelengths; ++k) f(k, n_);
   }
+  Block<R> component(Operand o, int k) const { return {at<const R>(o) + k * step(o)}; }
   template <class F>
   void unary_s(const In& i) {
-    R* d = at<R>(i.dst);
-    const R* a = at<const R>(i.a);
-    const std::ptrdiff_t da = step(i.a);
-    each_wavelength([=, n = n_](int k, int lanes) { map1<F>(d + k * n, a + k * da, lanes); }, i.a);
+    each_wavelength(is_run(i.a),
+                    [&](int k, int n) { map1<F>(at<R>(i.dst) + k * n_, component(i.a, k), n); });
   }
   template <class F>
   void binary_s(const In& i) {
-    R* d = at<R>(i.dst);
-    const R *a = at<const R>(i.a), *b = at<const R>(i.b);
-    const std::ptrdiff_t da = step(i.a), db = step(i.b);
-    each_wavelength(
-        [=, n = n_](int k, int lanes) { map2<F>(d + k * n, a + k * da, b + k * db, lanes); }, i.a,
-        i.b);
+    const bool same_a = i.a.base() == Operand::Constant, same_b = i.b.base() == Operand::Constant;
+    const bool once = runs_through(i.a) && runs_through(i.b) && !(same_a && same_b);
+    each_wavelength(once, [&](int k, int n) {
+      R* const d = at<R>(i.dst) + k * n_;
+      const Block<R> a = component(i.a, k), b = component(i.b, k);
+      if (same_a)
+        map2<F>(d, Same<R>{a[0]}, b, n);
+      else if (same_b)
+        map2<F>(d, a, Same<R>{b[0]}, n);
+      else
+        map2<F>(d, a, b, n);
+    });
   }
   void fma_s(const In& i) {
-    R* d = at<R>(i.dst);
-    const R *a = at<const R>(i.a), *b = at<const R>(i.b), *c = at<const R>(i.c);
-    const std::ptrdiff_t da = step(i.a), db = step(i.b), dc = step(i.c);
-    each_wavelength(
-        [=, n = n_](int k, int lanes) {
-          map3<Fma>(d + k * n, a + k * da, b + k * db, c + k * dc, lanes);
-        },
-        i.a, i.b, i.c);
+    const bool once = is_run(i.a) && runs_through(i.b) && runs_through(i.c);
+    each_wavelength(once, [&](int k, int n) {
+      map_last2<Fma>(at<R>(i.dst) + k * n_, component(i.a, k), component(i.b, k), component(i.c, k),
+                     i, n);
+    });
   }
   void select_s(const In& i) {
-    R* d = at<R>(i.dst);
-    const R *b = at<const R>(i.b), *c = at<const R>(i.c);
-    const std::ptrdiff_t db = step(i.b), dc = step(i.c);
     for (int k = 0; k < kWavelengths; ++k)
-      map3<Select>(d + k * n_, at<const int32_t>(i.a), b + k * db, c + k * dc, n_);
+      map_last2<Select>(at<R>(i.dst) + k * n_, Block<int32_t>{at<const int32_t>(i.a)},
+                        component(i.b, k), component(i.c, k), i, n_);
   }
   void splat(const In& i) {
     for (int k = 0; k < kWavelengths; ++k)
@@ -135,7 +168,8 @@ class Frame {
   }
   /// Takes lanes that were given up out of every mask of this frame.
   void sweep() {
-    for (uint32_t k = 0; k < f_.masks; ++k) map2<And>(mask(k), mask(k), m_.alive, n_);
+    for (uint32_t k = 0; k < f_.masks; ++k)
+      map2<And>(mask(k), Block<int32_t>{mask(k)}, Block<int32_t>{m_.alive}, n_);
   }
   /// One more back edge or recursive call for the lanes of `lanes`.
   void spend(const int32_t* lanes, SourceLine line) {
@@ -183,14 +217,66 @@ class Frame {
   void tail_call(const In& i, SourceLine line) {
     int32_t* lanes = at<int32_t>(i.a);
     spend(lanes, line);
-    binary<Or, int32_t, int32_t>({i.op, i.dst, i.dst, i.a, {}, 0});
+    map2<Or>(mask(1), Block<int32_t>{mask(1)}, Block<int32_t>{lanes}, n_);
   }
-  /// Whether any lane starts again; those are then the lanes that run.
+  /// Whether lanes start again here; those are then the lanes that run.
   bool restart() {
-    if (!any_of(mask(1), n_)) return false;
-    __builtin_memcpy(mask(0), mask(1), std::size_t(n_) * sizeof(int32_t));
-    clear(mask(1));
-    return true;
+    const int left = move_mask(mask(0), mask(1), n_);
+    if (left == 0) return false;
+    if (sizeof(R) != sizeof(int32_t) || lanes_of(left) * 2 > n_) return true;
+    run_compacted(lanes_of(left));
+    return false;
+  }
+  static int lanes_of(int lanes) { return (lanes + kLaneMultiple - 1) & -kLaneMultiple; }
+
+  /// Runs the lanes that start again to their end side by side, as a batch of `n` lanes, and puts
+  /// their results where the others' are. Only parameters and inputs live across a back edge.
+  /// Only where all cells have one size: not in the double machine.
+  void run_compacted(int n) {
+    const uint32_t results = f_.result_blocks, first_param = f_.result_blocks;
+    const std::size_t block = std::size_t(n) * sizeof(int32_t), input_blocks = f_.input_end;
+    const std::size_t bytes = block * (3 + input_blocks + f_.masks + f_.blocks);
+    std::byte* const memory = m_.push_frame(m_.frames, bytes);
+    int32_t* const lanes = reinterpret_cast<int32_t*>(memory);
+    const int left = list(lanes, n);
+    const Machine outer = m_;
+    m_.lanes = n;
+    m_.spent = lanes + n;
+    m_.alive = lanes + 2 * n;
+    m_.inputs = memory + 3 * block;
+    m_.input_stride = block;
+    gather(m_.spent, outer.spent, lanes, n);
+    gather(m_.alive, outer.alive, lanes, n);
+    for (uint32_t k = 0; k < f_.inputs; ++k) {
+      const Operand o = m_.operands[f_.first_input + k];
+      gather(cells(m_.inputs + o.index() * block), at<int32_t>(o), lanes, n);
+    }
+    Frame inner(m_, uint32_t(&f_ - m_.functions), m_.inputs + input_blocks * block, depth_);
+    for (int k = 0; k < n; ++k) inner.mask(0)[k] = k < left;
+    for (uint32_t k = first_param; k < first_param + f_.param_blocks; ++k)
+      gather(cells(inner.slot(k)), cells(slot(k)), lanes, n);
+    inner.run();
+    for (uint32_t k = 0; k < results; ++k)
+      scatter(cells(slot(k)), cells(inner.slot(k)), lanes, left);
+    scatter(outer.spent, m_.spent, lanes, left);
+    scatter(outer.alive, m_.alive, lanes, left);
+    for (int k = outer.fault_count; k < m_.fault_count; ++k)
+      m_.faults[k].lane = lanes[m_.faults[k].lane];
+    m_.lanes = outer.lanes;
+    m_.spent = outer.spent;
+    m_.alive = outer.alive;
+    m_.inputs = outer.inputs;
+    m_.input_stride = outer.input_stride;
+    m_.pop_frame(m_.frames, bytes);
+  }
+  static int32_t* cells(std::byte* block) { return reinterpret_cast<int32_t*>(block); }
+  /// Lists the lanes that start again, and for padding up to `n` the first of them; how many.
+  int list(int32_t* lanes, int n) const {
+    int left = 0;
+    for (int i = 0; i < n_; ++i)
+      if (mask(0)[i]) lanes[left++] = i;
+    for (int k = left; k < n; ++k) lanes[k] = lanes[0];
+    return left;
   }
 
   /// The code once, from its start to its end.
@@ -220,16 +306,22 @@ void Frame<R>::pass() {
         binary<Mul, R, R>(i);
         break;
       case LoweredOp::DivR:
-        binary<Div, R, R>(i);
+        quotient<Div, DivExact>(i);
         break;
       case LoweredOp::ModR:
-        binary<Mod, R, R>(i);
+        quotient<Mod, ModExact>(i);
         break;
       case LoweredOp::NegR:
         unary<Neg, R, R>(i);
         break;
       case LoweredOp::FmaR:
         ternary<Fma, R, R, R>(i);
+        break;
+      case LoweredOp::FmsR:
+        ternary<Fms, R, R, R>(i);
+        break;
+      case LoweredOp::FnmaR:
+        ternary<Fnma, R, R, R>(i);
         break;
 
       case LoweredOp::AddS:
@@ -262,6 +354,9 @@ void Frame<R>::pass() {
         break;
       case LoweredOp::MulI:
         binary<MulWrap, L, L>(i);
+        break;
+      case LoweredOp::MadI:
+        ternary<MulAddWrap, L, L, L>(i);
         break;
       case LoweredOp::ModI:
         binary<ModFloored, L, L>(i);
@@ -305,7 +400,6 @@ void Frame<R>::pass() {
         binary<And, L, L>(i);
         break;
       case LoweredOp::Or:
-
         binary<Or, L, L>(i);
         break;
       case LoweredOp::Not:

@@ -7,32 +7,38 @@
 /// One kernel for each operation, over a value type R (float or double).
 ///
 /// Loops run over lanes, a multiple of kLaneMultiple; results may stand exactly where operands of
-/// the same size stood.
+/// the same size stood. An operand is a block of lanes, or one number for all of them.
 
 using std::int32_t;
+using std::ptrdiff_t;
 using std::uint32_t;
 
-/// Lanes as a loop bound that needs no remainder.
-#define MMS_LANES(n) \
-  if ((n) <= 0 || (n) % kLaneMultiple != 0) __builtin_unreachable()
+/// A loop over lanes that is vectorised without a remainder.
+#define MMS_LANES(i, n) \
+  _Pragma("GCC ivdep") _Pragma("GCC unroll 4") for (int i = 0; i < ((n) & -kLaneMultiple); ++i)
+
+template <class T>
+struct Block {
+  const T* lanes;
+  T operator[](int i) const { return lanes[i]; }
+};
+template <class T>
+struct Same {
+  T value;
+  T operator[](int) const { return value; }
+};
 
 template <class F, class D, class A>
-inline void map1(D* d, const A* a, int n) {
-  MMS_LANES(n);
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) d[i] = F::eval(a[i]);
-}
-template <class F, class D, class A>
-inline void map2(D* d, const A* a, const A* b, int n) {
-  MMS_LANES(n);
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) d[i] = F::eval(a[i], b[i]);
+inline void map1(D* d, A a, int n) {
+  MMS_LANES(i, n) d[i] = F::eval(a[i]);
 }
 template <class F, class D, class A, class B>
-inline void map3(D* d, const A* a, const B* b, const B* c, int n) {
-  MMS_LANES(n);
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) d[i] = F::eval(a[i], b[i], c[i]);
+inline void map2(D* d, A a, B b, int n) {
+  MMS_LANES(i, n) d[i] = F::eval(a[i], b[i]);
+}
+template <class F, class D, class A, class B, class C>
+inline void map3(D* d, A a, B b, C c, int n) {
+  MMS_LANES(i, n) d[i] = F::eval(a[i], b[i], c[i]);
 }
 
 inline float floor_of(float x) { return __builtin_floorf(x); }
@@ -71,6 +77,29 @@ struct Mod {
     return fma_of(-b, floor_of(a / b), a);
   }
 };
+/// Div and Mod by `b`, a power of two whose reciprocal `r` is exact: the same bits without
+/// dividing.
+struct DivExact {
+  template <class R>
+  static R eval(R a, R, R r) {
+    return a * r;
+  }
+};
+struct ModExact {
+  template <class R>
+  static R eval(R a, R b, R r) {
+    return fma_of(-b, floor_of(a * r), a);
+  }
+};
+/// Whether x is such a power of two: no mantissa, and an exponent that the reciprocal has too.
+inline bool has_exact_reciprocal(float x) {
+  const uint32_t b = __builtin_bit_cast(uint32_t, x) & 0x7fffffff, e = b >> 23;
+  return b << 9 == 0 && e > 1 && e < 253;
+}
+inline bool has_exact_reciprocal(double x) {
+  const std::uint64_t b = __builtin_bit_cast(std::uint64_t, x) & ~(1ull << 63), e = b >> 52;
+  return b << 12 == 0 && e > 1 && e < 2045;
+}
 struct Neg {
   template <class R>
   static R eval(R a) {
@@ -84,6 +113,19 @@ struct Fma {
   }
 };
 
+struct Fms {
+  template <class R>
+  static R eval(R a, R b, R c) {
+    return fma_of(a, b, -c);
+  }
+};
+struct Fnma {
+  template <class R>
+  static R eval(R a, R b, R c) {
+    return fma_of(-a, b, c);
+  }
+};
+
 struct AddWrap {
   static int32_t eval(int32_t a, int32_t b) { return int32_t(uint32_t(a) + uint32_t(b)); }
 };
@@ -92,6 +134,11 @@ struct SubWrap {
 };
 struct MulWrap {
   static int32_t eval(int32_t a, int32_t b) { return int32_t(uint32_t(a) * uint32_t(b)); }
+};
+struct MulAddWrap {
+  static int32_t eval(int32_t a, int32_t b, int32_t c) {
+    return int32_t(uint32_t(a) * uint32_t(b) + uint32_t(c));
+  }
 };
 struct NegWrap {
   static int32_t eval(int32_t a) { return int32_t(0u - uint32_t(a)); }
@@ -164,10 +211,8 @@ struct Select {
 
 /// then = outer & cond, other = outer & not cond; whether any lane is in `then`.
 inline bool split(int32_t* then, int32_t* other, const int32_t* outer, const int32_t* cond, int n) {
-  MMS_LANES(n);
   int32_t any = 0;
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
+  MMS_LANES(i, n) {
     const int32_t t = outer[i] & cond[i];
     other[i] = outer[i] ^ t;
     then[i] = t;
@@ -177,22 +222,38 @@ inline bool split(int32_t* then, int32_t* other, const int32_t* outer, const int
 }
 
 inline bool any_of(const int32_t* mask, int n) {
-  MMS_LANES(n);
   int32_t any = 0;
-  for (int i = 0; i < n; ++i) any |= mask[i];
+  MMS_LANES(i, n) any |= mask[i];
   return any != 0;
+}
+/// to = from, from = 0; how many lanes that are.
+inline int move_mask(int32_t* to, int32_t* from, int n) {
+  int32_t sum = 0;
+  MMS_LANES(i, n) {
+    sum += to[i] = from[i];
+    from[i] = 0;
+  }
+  return sum;
 }
 
 /// Counts the lanes of `mask` up; whether any lane is now above `limit`.
 inline bool count(int32_t* counter, const int32_t* mask, int32_t limit, int n) {
-  MMS_LANES(n);
   int32_t over = 0;
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i) {
+  MMS_LANES(i, n) {
     counter[i] += mask[i];
     over |= counter[i] > limit;
   }
   return over != 0;
+}
+
+/// to[k] = from[lanes[k]] and the other way round, for `n` lanes.
+template <class T>
+inline void gather(T* to, const T* from, const int32_t* lanes, int n) {
+  for (int k = 0; k < n; ++k) to[k] = from[lanes[k]];
+}
+template <class T>
+inline void scatter(T* to, const T* from, const int32_t* lanes, int n) {
+  for (int k = 0; k < n; ++k) to[lanes[k]] = from[k];
 }
 
 #undef MMS_LANES

@@ -2,9 +2,11 @@
 #include "vm/lower.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include "vm/call_graph.h"
+#include "vm/input_use.h"
 #include "vm/slots.h"
 
 namespace mms::vm {
@@ -54,6 +56,9 @@ class FunctionLowering {
     for (const Instruction& i : f_.code) {
       returns_ += i.op == Op::Return;
       row_.loops |= i.op == Op::TailCall;
+      tail_calls_ += i.op == Op::TailCall;
+    }
+    for (end_of_work_ = f_.code.size(); f_.code[end_of_work_ - 1].op == Op::End; --end_of_work_) {
     }
     count_locals();
     place_results_and_params();
@@ -63,12 +68,18 @@ class FunctionLowering {
 
   LoweredFunction lower() {
     for (std::size_t pc = 0; pc < f_.code.size(); ++pc) {
+      pc_ = pc;
       line_ = f_.lines[pc];
       step(f_.code[pc]);
     }
     for (const std::size_t pc : skips_) land(pc);
     emit(LoweredOp::Return);
     row_.end = std::uint32_t(code_.instructions.size());
+    for (std::uint32_t pc = row_.begin; pc < row_.end; ++pc) {
+      const LoweredInstruction& i = code_.instructions[pc];
+      row_.calls |= i.op == LoweredOp::TailCall || i.op == LoweredOp::Call;
+      for (const Operand o : {i.a, i.b, i.c}) row_.masked |= o.base() == Operand::Mask;
+    }
     row_.masks = masks_;
     row_.blocks = slots_.blocks();
     return row_;
@@ -152,6 +163,7 @@ class FunctionLowering {
     return code_.instructions.size() - 1;
   }
   void land(std::size_t pc) {
+    landed_ = code_.instructions.size();
     code_.instructions[pc].target = std::uint32_t(code_.instructions.size());
   }
 
@@ -215,14 +227,54 @@ class FunctionLowering {
   void arithmetic(Op op) {
     const OpInfo& row = info(op);
     const std::vector<Value> in = pop(row.pops.size());
+    LoweredInstruction i{lowered(op), {}, {}, {}, {}, 0};
+    Operand* const operands[] = {&i.a, &i.b, &i.c};
+    for (std::size_t k = 0; k < in.size(); ++k) *operands[k] = in[k].at;
+    absorb(i);
+    if (is_product_sum(i.op) && i.a.base() == Operand::Constant) std::swap(i.a, i.b);
     const SlotType type = type_of(row.pushes[0]);
     if (in_place(row)) release(in);
-    const Operand dst = slots_.allocate(type);
-    Operand operands[3] = {};
-    for (std::size_t k = 0; k < in.size(); ++k) operands[k] = in[k].at;
-    emit(lowered(op), dst, operands[0], operands[1], operands[2]);
+    i.dst = slots_.allocate(type);
+    emit(i.op, i.dst, i.a, i.b, i.c);
     if (!in_place(row)) release(in);
-    push(dst, type);
+    push(i.dst, type);
+  }
+
+  /// Whether the first two operands are factors: they commute to the bit.
+  static bool is_product_sum(LoweredOp op) {
+    return op == LoweredOp::FmaR || op == LoweredOp::FmaS || op == LoweredOp::FmsR ||
+           op == LoweredOp::FnmaR || op == LoweredOp::MadI;
+  }
+
+  /// Takes the instruction before into this one where the pair has an instruction of its own.
+  void absorb(LoweredInstruction& i) {
+    if (i.op == LoweredOp::AddI) {
+      for (const bool second : {false, true})
+        if (const auto product = take_last(LoweredOp::MulI, second ? i.b : i.a)) {
+          i = {LoweredOp::MadI, {}, product->a, product->b, second ? i.a : i.b, 0};
+          return;
+        }
+    }
+    if (i.op != LoweredOp::FmaR) return;
+    if (const auto negated = take_last(LoweredOp::NegR, i.c))
+      i.op = LoweredOp::FmsR, i.c = negated->a;
+    else if (const auto left = take_last(LoweredOp::NegR, i.a))
+      i.op = LoweredOp::FnmaR, i.a = left->a;
+    else if (const auto right = take_last(LoweredOp::NegR, i.b))
+      i.op = LoweredOp::FnmaR, i.b = right->a;
+  }
+
+  /// The last instruction, taken back, if it is an `op` that made `o` for nobody else. The slot
+  /// `o` stays allocated; what the instruction read still stands where it was.
+  std::optional<LoweredInstruction> take_last(LoweredOp op, Operand o) {
+    const std::size_t last = code_.instructions.size() - 1;
+    const auto d = slots_.sole_definition(o);
+    if (!d || d->pooled || d->index != last || last < landed_) return std::nullopt;
+    const LoweredInstruction i = code_.instructions[last];
+    if (i.op != op) return std::nullopt;
+    code_.instructions.pop_back();
+    code_.lines.pop_back();
+    return i;
   }
 
   // Locals
@@ -456,11 +508,18 @@ class FunctionLowering {
       slots_.refer(args[j].at, -1);
       args[j].at = copy;
     }
-    for (std::size_t j = 0; j < args.size(); ++j) blend(locals_[j].value.at, cur_.at, args[j]);
+    for (std::size_t j = 0; j < args.size(); ++j) pass(locals_[j].value.at, args[j]);
     release(args);
     const std::size_t pc = emit(LoweredOp::TailCall, {}, cur_.at);
     code_.instructions[pc].dst = next_;
     dead_ = true;
+  }
+
+  /// Assigns a parameter. Where nothing is left to do but to start again, the lanes that do not
+  /// never look at it.
+  void pass(Operand param, Value value) {
+    if (tail_calls_ > 1 || pc_ + 1 != end_of_work_) return blend(param, cur_.at, value);
+    if (param != value.at) emit(copy_op(value.type), param, value.at);
   }
 
   bool reads_param_before(Operand o, std::size_t end) const {
@@ -491,7 +550,9 @@ class FunctionLowering {
   LoweredCode& code_;
   LoweredFunction row_;
   SourceLine line_;
-  int returns_ = 0;
+  int returns_ = 0, tail_calls_ = 0;
+  std::size_t landed_ = 0;  ///< no instruction from here on is jumped to, but the first
+  std::size_t pc_ = 0, end_of_work_ = 0;  ///< behind it only Ends follow
 
   std::vector<Value> stack_;
   std::vector<Local> locals_;
@@ -522,6 +583,7 @@ LoweredCode lower(const Program& program) {
     code.functions.push_back(row);
     code.results.push_back(lowering.results());
   }
+  find_input_use(code);
   return code;
 }
 

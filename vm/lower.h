@@ -30,12 +30,18 @@ namespace mms::vm {
 ///  Return      |            |          |             |           | end of the function's code
 ///  Copy        | result     | block    |             |           |
 ///  SkipIfNone  |            | mask     |             |           | if no lane: where to go
+///  FmsR        | a b - c, rounded once: FmaR of a NegR
+///  FnmaR       | c - a b, rounded once: FmaR of a NegR
+///  MadI        | a b + c, wraps: AddI of a MulI
 enum class LoweredOp : std::uint8_t {
 #define OP(name, ...) name,
 #include "vm/opcodes.def"
 #undef OP
   Copy,
   SkipIfNone,
+  FmsR,
+  FnmaR,
+  MadI,
 };
 
 /// A block of lanes, or the first of a spectrum's.
@@ -79,6 +85,11 @@ struct LoweredFunction {
   std::uint32_t begin = 0, end = 0;  ///< in LoweredCode::instructions
   std::uint32_t masks = 0, blocks = 0;
   std::uint32_t result_blocks = 0, param_blocks = 0;
+  /// Inputs that it or a function it calls reads, as operands in LoweredCode::operands; the last
+  /// is below `input_end`.
+  std::uint32_t first_input = 0, inputs = 0, input_end = 0;
+  bool masked = false;     ///< reads a mask
+  bool calls = false;      ///< has a TailCall or a Call, so lanes may be given up
   bool loops = false;      ///< has a TailCall
   bool recursive = false;  ///< can reach itself: its calls are counted
 };

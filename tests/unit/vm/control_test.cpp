@@ -307,9 +307,9 @@ TEST_CASE("an interpreter tells executables apart, and one may follow another") 
 TEST_CASE("the width fits the working set to the cache") {
   Assembler small, large;
   small.function("f", {}, {R}).real(1).ret();
-  CHECK(Executable(small.program).width() == 256);
-  large.function("f", {}, std::vector<SlotType>(60, S));
-  for (int k = 0; k < 60; ++k) large.real(k).op(Op::Splat);
+  CHECK(Executable(small.program).width() == 512);
+  large.function("f", {}, std::vector<SlotType>(240, S));
+  for (int k = 0; k < 240; ++k) large.real(k).op(Op::Splat);
   large.ret();
   CHECK(Executable(large.program).width() == 32);
 }

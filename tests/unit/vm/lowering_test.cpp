@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lowering and the execution loop do for speed must not show: fused pairs, constants as one
+// number, divisors that are powers of two, lanes moved together at a back edge.
+#include <limits>
+
+#include "harness.h"
+
+namespace mms::vm::test {
+namespace {
+
+constexpr int kX = input_index(Variable::Position, 0), kY = input_index(Variable::Position, 1);
+
+template <class T>
+std::vector<Point<T>> spread(int n) {
+  constexpr double special[] = {0.0,     -0.0, 1.0,  -1.0,  1e-38, -3e-39, 1e38,
+                                1.5e-45, 7.0,  -7.5, 0.333, 123.4, -2e9};
+  std::vector<Point<T>> points;
+  for (int k = 0; k < n; ++k) {
+    points.push_back(zero_point<T>());
+    points.back()[kX].r[0] = T(special[k % 13]);
+    points.back()[kY].r[0] = T(special[k / 13 % 13]);
+  }
+  return points;
+}
+
+TEST_CASE_TEMPLATE("dividing by a constant is dividing", T, float, double) {
+  const double tiny = std::numeric_limits<T>::min(), huge = std::numeric_limits<T>::max();
+  for (const double b : {2.0, -4.0, 0.5, 0x1p-20, 3.0, 0.0, -0.0, tiny, tiny / 2, 2 * tiny, 0x1p127,
+                         -0x1p126, huge, std::numeric_limits<double>::infinity()}) {
+    CAPTURE(b);
+    Assembler a;
+    a.function("f", {}, {R, R});
+    a.op(Op::PushInput, kX).real(b).op(Op::DivR);
+    a.op(Op::PushInput, kX).real(b).op(Op::ModR).ret();
+    check_against_reference(a.program, 0, spread<T>(13));
+  }
+}
+
+TEST_CASE_TEMPLATE("pairs with an instruction of their own", T, float, double) {
+  Assembler a;
+  a.function("f", {}, {R, R, R, I, I}, {R, I});
+  const auto x = [&]() -> Assembler& { return a.op(Op::PushInput, kX); };
+  const auto y = [&]() -> Assembler& { return a.op(Op::PushInput, kY); };
+  x(), y(), x().ops({Op::NegR, Op::FmaR});                      // x y - x
+  x().op(Op::NegR), a.real(3), y().op(Op::FmaR);                // y - 3 x
+  y().op(Op::NegR).store(0).load(0), x().load(0).op(Op::FmaR);  // -y x + -y: read twice
+  x().op(Op::IntOfReal), y().op(Op::IntOfReal).op(Op::MulI).store(1);
+  a.load(1).integer(1013904223).op(Op::AddI);                        // i j + c
+  a.integer(-7).load(1).integer(5).ops({Op::MulI, Op::AddI}).ret();  // c + 5 i j
+  check_against_reference(a.program, 0, spread<T>(169));
+}
+
+TEST_CASE_TEMPLATE("operations of constants alone, and of spectra with constants", T, float,
+                   double) {
+  Assembler a;
+  a.function("f", {}, {R, S, S, S});
+  a.real(3).real(4).real(5).op(Op::FmaR);
+  a.real(3).op(Op::Splat).real(4).ops({Op::Splat, Op::AddS});
+  a.real(3).op(Op::Splat).real(4).op(Op::Splat).input(Variable::Wavelength).op(Op::FmaS);
+  a.input(Variable::Wavelength).input(Variable::Position).op(Op::Splat).real(4);
+  a.ops({Op::Splat, Op::FmaS}).ret();
+  auto points = spread<T>(40);
+  for (int k = 0; k < 40; ++k)
+    for (int w = 0; w < kWavelengths; ++w)
+      points[k][input_index(Variable::Wavelength)].r[w] = T(k + 0.5 * w);
+  check_against_reference(a.program, 0, points);
+}
+
+/// `loop(n, s, c) = n <= 0 ? (s, c) : loop(n - 1, s + c y, scaled(c))`, and lanes of negative x
+/// never end; `scaled` reads an input too.
+Program diverging() {
+  Assembler a;
+  a.function("entry", {}, {R, S});
+  a.op(Op::PushInput, kX).real(0).input(Variable::Wavelength).call(1).ret();
+  a.function("loop", {R, R, S}, {R, S});
+  a.load(0).real(0).op(Op::EqR).begin().load(1).load(2).ret().end();
+  a.load(0).real(1).op(Op::SubR);
+  a.load(0).op(Op::PushInput, kY).load(1).op(Op::FmaR);
+  a.load(2).call(2).again();
+  a.function("scaled", {S}, {S});
+  a.load(0).input(Variable::RgbRed).ops({Op::MulS}).ret();
+  return a.program;
+}
+
+TEST_CASE("lanes that are moved together at a back edge end as they would alone") {
+  const int lanes = 400;
+  std::vector<Point<float>> points;
+  for (int k = 0; k < lanes; ++k) {
+    points.push_back(zero_point<float>());
+    points[k][kX].r[0] = float(k * 37 % 101 * (k % 3));
+    points[k][kY].r[0] = float(k % 7) / 8;
+    for (int w = 0; w < kWavelengths; ++w) {
+      points[k][input_index(Variable::Wavelength)].r[w] = float(1 + w);
+      points[k][input_index(Variable::RgbRed)].r[w] = 1 - float(k % 5) / 64;
+    }
+  }
+  check_against_reference(diverging(), 0, points);
+}
+
+TEST_CASE("a lane that is given up after it was moved is reported as itself") {
+  std::vector<Point<float>> points(300, zero_point<float>());
+  for (int k = 0; k < 300; ++k) {
+    points[k][kX].r[0] = k == 77 || k == 201 ? -1 : float(k % 50);
+    points[k][kY].r[0] = 1;
+  }
+  Interpreter<float> machine(300);
+  const Program p = diverging();
+  const auto out = run(machine, Executable(p), p, 0, points);
+  CHECK(machine.faults().size() == 2);
+  for (int k = 0; k < 300; ++k) {
+    CHECK(out[k].fault.has_value() == (k == 77 || k == 201));
+    const int n = k % 50;
+    CHECK(out[k].results[0].r[0] == (out[k].fault ? 0 : n * (n + 1) / 2));
+  }
+}
+
+}  // namespace
+}  // namespace mms::vm::test

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vm/input_use.h"
+
+#include <algorithm>
+#include <bitset>
+
+namespace mms::vm {
+namespace {
+
+constexpr std::size_t kBlocks = std::size_t(input_block(input_count()));
+using Blocks = std::bitset<kBlocks>;
+
+/// For each block of the inputs, how many a spectrum operand there stands for.
+std::vector<std::uint32_t> run_lengths() {
+  std::vector<std::uint32_t> runs(kBlocks, 1);
+  for (int i = 0; i < input_count(); ++i)
+    runs[std::size_t(input_block(i))] = std::uint32_t(block_count(input_type(i)));
+  return runs;
+}
+
+/// What the instructions of one function read themselves.
+Blocks own_use(const LoweredCode& code, const LoweredFunction& f) {
+  static const std::vector<std::uint32_t> runs = run_lengths();
+  Blocks used;
+  const auto read = [&](Operand o, std::uint32_t count) {
+    for (std::uint32_t k = 0; o.base() == Operand::Input && k < count; ++k) used.set(o.index() + k);
+  };
+  for (std::uint32_t pc = f.begin; pc < f.end; ++pc) {
+    const LoweredInstruction& i = code.instructions[pc];
+    for (const Operand o : {i.a, i.b, i.c})
+      if (o.base() == Operand::Input) read(o, o.splat() ? 1 : runs[o.index()]);
+    if (i.op != LoweredOp::Call && i.op != LoweredOp::CallBuiltin) continue;
+    const CallSite& site = code.sites[i.target];
+    for (std::uint32_t k = 0; k < site.args * site.repeats; ++k)
+      read(code.operands[site.first_arg + k], 1);
+  }
+  return used;
+}
+
+}  // namespace
+
+void find_input_use(LoweredCode& code) {
+  std::vector<Blocks> used;
+  for (const LoweredFunction& f : code.functions) used.push_back(own_use(code, f));
+  // What is called is read too; calls may be circular.
+  for (bool grew = true; grew;) {
+    grew = false;
+    for (std::size_t k = 0; k < used.size(); ++k) {
+      const Blocks before = used[k];
+      for (std::uint32_t pc = code.functions[k].begin; pc < code.functions[k].end; ++pc)
+        if (code.instructions[pc].op == LoweredOp::Call)
+          used[k] |= used[code.sites[code.instructions[pc].target].function];
+      grew |= used[k] != before;
+    }
+  }
+  for (std::size_t k = 0; k < used.size(); ++k) {
+    LoweredFunction& f = code.functions[k];
+    f.first_input = std::uint32_t(code.operands.size());
+    for (std::uint32_t b = 0; b < kBlocks; ++b)
+      if (used[k][b]) {
+        code.operands.push_back(Operand::make(Operand::Input, b));
+        f.input_end = b + 1;
+      }
+    f.inputs = std::uint32_t(code.operands.size()) - f.first_input;
+  }
+}
+
+}  // namespace mms::vm

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Which inputs the functions of lowered code read. Internal to vm.
+
+#include "vm/lower.h"
+
+namespace mms::vm {
+
+/// Fills in `first_input`, `inputs` and `input_end` of every function.
+void find_input_use(LoweredCode& code);
+
+}  // namespace mms::vm
