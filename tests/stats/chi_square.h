@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "tests/sanitized.h"
 #include "tests/stats/distributions.h"
 #include "tests/stats/quadrature.h"
 #include "tests/stats/random.h"
@@ -30,7 +31,7 @@ struct ChiSquareTest {
   /// Per steradian.
   std::function<double(Vec3d)> pdf;
   Vec3d axis{0, 0, 1};  ///< the pole: the density may jump at its equator
-  int count = 100'000;
+  int count = kSanitized ? 5'000 : 100'000;
   int pilot = 8192;
   int cells = 64;  ///< in each half; a power of two
   std::uint64_t seed = 1;

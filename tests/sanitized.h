@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Whether this is a build under the address sanitizer, which is there to find bad memory accesses
+/// and takes ten to thirty times as long: tests may then do the same with fewer samples or lanes.
+
+namespace mms {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
+}  // namespace mms
