@@ -144,6 +144,10 @@ constexpr const char* kMethod = R"(## Method
 - Reproduce: `./run bench`.
 )";
 
+constexpr const char* kShared =
+    "Where other programs hold the cores (the load average above tells), the figures of this table "
+    "say\nnothing.\n\n";
+
 constexpr const char* kPeer = R"(
 Open Shading Language with its LLVM compiler, measured earlier by its own test host on an older
 processor (AMD Zen 3, AVX2), not re-run here: part of any difference is the processor's. What else
@@ -175,7 +179,7 @@ std::string tables(const Results& r) {
   std::string t = "## Speed, ns a point\n\n" + speed_table(r);
   t += "\n## Errors against double\n\n" + error_table(r);
   if (!r.per_call.empty()) t += "\n## Points a call, ns a point\n\n" + per_call_table(r);
-  if (!r.threads.empty()) t += "\n## Two threads, one program\n\n" + thread_table(r);
+  if (!r.threads.empty()) t += "\n## Two threads, one program\n\n" + std::string(kShared) + thread_table(r);
   t += "\n## From text to the first batch\n\n" + cold_table(r);
   return t + "\n## The peer\n" + kPeer + "\n" + peer_table(r);
 }
