@@ -78,9 +78,8 @@ struct Frame {
     const R sign = std::copysign(R(1), n.z);
     const R a = R(-1) / (sign + n.z);
     const R b = n.x * n.y * a;
-    return {{R(1) + sign * n.x * n.x * a, sign * b, -sign * n.x},
-            {b, sign + n.y * n.y * a, -n.y},
-            n};
+    return {
+        {R(1) + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
   }
 
   /// Basis with normal `n` (unit) whose `s` is the part of `tangent` orthogonal to `n`.

@@ -179,7 +179,8 @@ std::string tables(const Results& r) {
   std::string t = "## Speed, ns a point\n\n" + speed_table(r);
   t += "\n## Errors against double\n\n" + error_table(r);
   if (!r.per_call.empty()) t += "\n## Points a call, ns a point\n\n" + per_call_table(r);
-  if (!r.threads.empty()) t += "\n## Two threads, one program\n\n" + std::string(kShared) + thread_table(r);
+  if (!r.threads.empty())
+    t += "\n## Two threads, one program\n\n" + std::string(kShared) + thread_table(r);
   t += "\n## From text to the first batch\n\n" + cold_table(r);
   return t + "\n## The peer\n" + kPeer + "\n" + peer_table(r);
 }
