@@ -1,42 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/outputs.h"
 
-#include <array>
-
 #include "materials/table.h"
+#include "vm/outputs.h"
 
 namespace mms::api {
 
-namespace {
-
-struct Row {
-  vm::Output output;
-  std::string_view surface, volume;
-};
-
-constexpr std::array kRows = {
-    Row{vm::Output::Material, "bsdf", "phase"},
-    Row{vm::Output::Scattering, "scattering", "scattering"},
-    Row{vm::Output::Absorption, "absorption", "absorption"},
-    Row{vm::Output::EmissionMaterial, "emission_function", "emission_function"},
-    Row{vm::Output::Emission, "emission", "emission"},
-    Row{vm::Output::Height, "height", ""},
-    Row{vm::Output::Gradient, "gradient", ""},
-    Row{vm::Output::Bound, "bound", "bound"},
-};
-static_assert(kRows.size() == static_cast<std::size_t>(vm::Output::Count));
-
-}  // namespace
-
 std::string_view output_name(vm::DescriptorForm form, vm::Output output) {
-  const Row& row = kRows[static_cast<std::size_t>(output)];
-  return form == vm::DescriptorForm::Surface ? row.surface : row.volume;
+  return vm::output_name(form, output);
 }
 
 std::optional<vm::Output> find_output(vm::DescriptorForm form, std::string_view name) {
   if (name.empty()) return std::nullopt;
-  for (const Row& row : kRows)
-    if (output_name(form, row.output) == name) return row.output;
+  for (std::size_t o = 0; o < vm::kOutputCount; ++o)
+    if (vm::output_name(form, vm::Output(o)) == name) return vm::Output(o);
   return std::nullopt;
 }
 

@@ -10,6 +10,7 @@
 #include "lang/elaborator.h"
 #include "lang/parser.h"
 #include "vm/limits.h"
+#include "vm/outputs.h"
 
 namespace mms::lang {
 namespace {
@@ -17,26 +18,11 @@ namespace {
 using vm::Output;
 using vm::SlotType;
 
-constexpr std::size_t kOutputs = static_cast<std::size_t>(Output::Count);
+using vm::OutputRow;
 
-/// An output as scripts name it, and its type. Rows in the order of vm::Output.
-struct OutputRow {
-  std::string_view surface, volume;  ///< empty: not there
-  enum class Shape : std::uint8_t { Material, Spectrum, Real, Real2 } shape;
-};
-constexpr OutputRow kOutputRows[kOutputs] = {
-    {"bsdf", "phase", OutputRow::Shape::Material},
-    {"scattering", "scattering", OutputRow::Shape::Spectrum},
-    {"absorption", "absorption", OutputRow::Shape::Spectrum},
-    {"emission_function", "emission_function", OutputRow::Shape::Material},
-    {"emission", "emission", OutputRow::Shape::Spectrum},
-    {"height", "", OutputRow::Shape::Real},
-    {"gradient", "", OutputRow::Shape::Real2},
-    {"bound", "bound", OutputRow::Shape::Real},
-};
-
-std::string_view output_name(std::size_t o, Descriptor::Form form) {
-  return form == Descriptor::Form::Surface ? kOutputRows[o].surface : kOutputRows[o].volume;
+constexpr vm::DescriptorForm form_of(Descriptor::Form form) {
+  return form == Descriptor::Form::Surface ? vm::DescriptorForm::Surface
+                                           : vm::DescriptorForm::Volume;
 }
 
 std::string_view row_name(std::string_view signature) {
@@ -322,7 +308,7 @@ void Elaborator::outputs(ElaboratedDescriptor& e, Scope* scope) {
     return nullptr;
   };
   auto default_value = [&](Output o) -> Value {
-    switch (kOutputRows[static_cast<std::size_t>(o)].shape) {
+    switch (vm::kOutputs[static_cast<std::size_t>(o)].shape) {
       case OutputRow::Shape::Material:
         return call_library(surface ? "matte" : "isotropic", {}, d.name.span);
       case OutputRow::Shape::Spectrum:
@@ -338,8 +324,8 @@ void Elaborator::outputs(ElaboratedDescriptor& e, Scope* scope) {
     zero.parts = {scalar(TypeTable::kReal, real(0)), scalar(TypeTable::kReal, real(0))};
     return zero;
   };
-  for (std::size_t o = 0; o < kOutputs; ++o) {
-    const std::string_view name = output_name(o, d.form);
+  for (std::size_t o = 0; o < vm::kOutputCount; ++o) {
+    const std::string_view name = vm::output_name(form_of(d.form), static_cast<Output>(o));
     const Assignment* a = name.empty() ? nullptr : assignment(name);
     e.outputs[o] = default_value(static_cast<Output>(o));
     if (!a) continue;

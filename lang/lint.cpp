@@ -6,14 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "vm/outputs.h"
+
 namespace mms::lang {
 namespace {
 
-const std::vector<std::string> kSurfaceOutputs = {
-    "bsdf",     "scattering", "absorption", "emission_function",
-    "emission", "height",     "gradient",   "bound"};
-const std::vector<std::string> kVolumeOutputs = {
-    "phase", "scattering", "absorption", "emission_function", "emission", "bound"};
+std::vector<std::string> output_names(vm::DescriptorForm form) {
+  std::vector<std::string> names;
+  for (std::size_t o = 0; o < vm::kOutputCount; ++o)
+    if (const auto name = vm::output_name(form, vm::Output(o)); !name.empty())
+      names.emplace_back(name);
+  return names;
+}
 
 /// Where each name is read.
 using Reads = std::multimap<std::string, std::uint32_t, std::less<>>;
@@ -47,7 +51,8 @@ void lint(const Graph& g, Diagnostics& diagnostics) {
         diagnostics.add(Diag::Unused, a.name.span, a.name.text);
   for (const Descriptor& d : g.descriptors) {
     const bool surface = d.form == Descriptor::Form::Surface;
-    const std::vector<std::string>& outputs = surface ? kSurfaceOutputs : kVolumeOutputs;
+    const std::vector<std::string> outputs =
+        output_names(surface ? vm::DescriptorForm::Surface : vm::DescriptorForm::Volume);
     for (const Assignment& a : d.body.assignments) {
       const bool output = std::find(outputs.begin(), outputs.end(), a.name.text) != outputs.end();
       if (output || read_in(reads, a.name.text, d.span)) continue;
