@@ -25,17 +25,17 @@ Exit check(const ScriptOptions& options) {
 
 }  // namespace
 
-void add_check(CLI::App& command, Exit& exit) {
-  CLI::App* verb = command.add_subcommand("check", "Check scripts; says nothing if all is well");
+Verb check_verb() {
   auto options = std::make_shared<ScriptOptions>();
-  verb->add_option("FILE", options->files,
-                   "Scripts, each a program of its own; - is standard input")
-      ->required()
-      ->type_name("");
-  add_script_options(*verb, *options);
-  add_format_option(*verb, *options);
-  verb->footer("Examples:\n  mms check marble.mms\n  mms check -Werror --format=json *.mms");
-  verb->callback([options, &exit] { exit = check(*options); });
+  Verb verb{"check",
+            "Check scripts; says nothing if all is well",
+            "Examples:\n  mms check marble.mms\n  mms check -Werror --format=json *.mms",
+            {},
+            [options] { return check(*options); }};
+  add_files(verb, *options, "Scripts, each a program of its own");
+  add_script_options(verb, *options);
+  add_format_option(verb, *options);
+  return verb;
 }
 
 }  // namespace mms::tools

@@ -1,23 +1,128 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
+#include "tools/command.h"
 
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "lang/diagnostics.h"
 #include "tools/commands.h"
+#include "tools/script.h"
 
 namespace mms::tools {
 
-void build_command(CLI::App& command, Exit& exit) {
-  command.name("mms");
-  command.description("Procedural materials: checks scripts, and renders them on a test sphere.");
-  command.set_version_flag("--version", "mms " MMS_VERSION, "Print the version and exit");
-  command.require_subcommand(1);
-  command.get_formatter()->column_width(34);
-  std::string footer =
+namespace {
+
+std::string footer() {
+  std::string text =
       "Examples:\n  mms check marble.mms\n  mms render marble.mms -o marble.png\n"
       "\nExit codes:\n";
   for (const ExitInfo& row : kExits)
-    footer += fmt::format("  {:<4}{}\n", static_cast<int>(row.code), row.doc);
-  command.footer(footer + "\n`mms VERB --help` says more about a verb.");
-  for (const AddVerb add : kVerbs) add(command, exit);
+    text += fmt::format("  {:<4}{}\n", static_cast<int>(row.code), row.doc);
+  return text + "\n`mms VERB --help` says more about a verb.";
+}
+
+CLI::Option* add_value(CLI::App& app, const Option& o) {
+  if (auto* const* flag = std::get_if<bool*>(&o.target))
+    return app.add_flag(o.names, **flag, o.doc);
+  if (auto* const* many = std::get_if<std::vector<std::string>*>(&o.target)) {
+    CLI::Option* option = app.add_option(o.names, **many, o.doc);
+    return o.positional() ? option : option->allow_extra_args(false);
+  }
+  std::string& text = *std::get<std::string*>(o.target);
+  if (o.bare.empty()) return app.add_option(o.names, text, o.doc);
+  return app.add_flag(fmt::format("{}{{{}}}", o.names, o.bare), text, o.doc);
+}
+
+void add_option(CLI::App& app, const Option& o) {
+  CLI::Option* option = add_value(app, o);
+  if (!std::holds_alternative<bool*>(o.target) && o.bare.empty()) option->type_name(o.value);
+  if (!o.words.empty()) option->check(CLI::IsMember(o.words).description(""));
+  if (o.required) option->required();
+}
+
+/// The whole command; the chosen verb leaves its end in `exit`. `verbs` outlives `app`.
+void build(CLI::App& app, const std::vector<Verb>& verbs, Exit& exit) {
+  app.name("mms");
+  app.description("Procedural materials: checks scripts, and renders them on a test sphere.");
+  app.set_version_flag("--version", "mms " MMS_VERSION, "Print the version and exit");
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+  app.footer(footer());
+  for (const Verb& verb : verbs) {
+    CLI::App* sub = app.add_subcommand(verb.name, verb.doc);
+    for (const Option& o : verb.options) add_option(*sub, o);
+    sub->footer(verb.footer);
+    sub->callback([&verb, &exit] { exit = verb.run(); });
+  }
+}
+
+/// A first word that is no verb, or a mistake in the options of one.
+Exit usage_error(const CLI::App& app, const CLI::ParseError& e, const std::string& word) {
+  for (const CLI::App* verb : app.get_subcommands()) {
+    const std::string name = "mms " + verb->get_name();
+    print_error({name, e.what(), fmt::format("`{} --help` shows the options", name)});
+    return Exit::Usage;
+  }
+  if (word.empty() || word[0] == '-') {
+    print_error(
+        {"mms", word.empty() ? "a verb is missing" : e.what(), "`mms --help` lists the verbs"});
+    return Exit::Usage;
+  }
+  std::vector<std::string> names;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(verb->get_name());
+  const std::string near = lang::nearest(word, names);
+  print_error({"mms", "no such verb: " + word,
+               near.empty() ? "`mms --help` lists the verbs"
+                            : fmt::format("did you mean `mms {}`?", near)});
+  return Exit::Usage;
+}
+
+}  // namespace
+
+std::vector<Verb> verbs() {
+  std::vector<Verb> all;
+  for (const auto make : kVerbs) all.push_back(make());
+  return all;
+}
+
+Exit run_command(int argc, const char* const* argv) {
+  Exit exit = Exit::Ok;
+  const std::vector<Verb> all = verbs();
+  CLI::App app;
+  build(app, all, exit);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() != 0) return usage_error(app, e, argc > 1 ? argv[1] : "");
+    app.exit(e);  // prints the help or the version
+  }
+  if (std::fflush(stdout) != 0) {
+    print_error({"standard output", "cannot be written", "is the disk full?"});
+    return Exit::File;
+  }
+  return exit;
+}
+
+std::string command_help() {
+  Exit exit = Exit::Ok;
+  const std::vector<Verb> all = verbs();
+  CLI::App app;
+  build(app, all, exit);
+  return app.help();
+}
+
+std::vector<std::string> verb_helps() {
+  Exit exit = Exit::Ok;
+  const std::vector<Verb> all = verbs();
+  CLI::App app;
+  build(app, all, exit);
+  std::vector<std::string> helps;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    helps.push_back(verb->help("mms"));
+  return helps;
 }
 
 }  // namespace mms::tools

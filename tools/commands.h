@@ -2,29 +2,22 @@
 #pragma once
 
 /// \file
-/// The verbs of the command: one file each.
+/// The verbs of the command: one file and one row each.
 
-#include <CLI/CLI.hpp>
-
-#include "tools/exit.h"
+#include "tools/verb.h"
 
 namespace mms::tools {
 
-/// Adds a verb to the command; when it has been run, `exit` says how it went.
-using AddVerb = void (*)(CLI::App& command, Exit& exit);
+Verb check_verb();
+Verb render_verb();
+Verb info_verb();
+Verb eval_verb();
+Verb disasm_verb();
+Verb explain_verb();
+Verb doc_verb();
 
-void add_check(CLI::App& command, Exit& exit);
-void add_render(CLI::App& command, Exit& exit);
-void add_info(CLI::App& command, Exit& exit);
-void add_eval(CLI::App& command, Exit& exit);
-void add_disasm(CLI::App& command, Exit& exit);
-void add_explain(CLI::App& command, Exit& exit);
-void add_doc(CLI::App& command, Exit& exit);
-
-inline constexpr AddVerb kVerbs[] = {add_check,  add_render,  add_info, add_eval,
-                                     add_disasm, add_explain, add_doc};
-
-/// The name, the version, the exit codes and all verbs.
-void build_command(CLI::App& command, Exit& exit);
+/// In the order of `mms --help`.
+inline constexpr Verb (*kVerbs[])() = {check_verb,  render_verb,  info_verb, eval_verb,
+                                       disasm_verb, explain_verb, doc_verb};
 
 }  // namespace mms::tools

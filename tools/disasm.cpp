@@ -22,16 +22,16 @@ Exit disasm(const ScriptOptions& options) {
 
 }  // namespace
 
-void add_disasm(CLI::App& command, Exit& exit) {
-  CLI::App* verb =
-      command.add_subcommand("disasm", "Print the bytecode that a script is linked to");
+Verb disasm_verb() {
   auto options = std::make_shared<ScriptOptions>();
-  verb->add_option("FILE", options->files, "Scripts, linked together; - is standard input")
-      ->required()
-      ->type_name("");
-  add_script_options(*verb, *options);
-  verb->footer("Examples:\n  mms disasm marble.mms\n  mms disasm -O0 marble.mms");
-  verb->callback([options, &exit] { exit = disasm(*options); });
+  Verb verb{"disasm",
+            "Print the bytecode that a script is linked to",
+            "Examples:\n  mms disasm marble.mms\n  mms disasm -O0 marble.mms",
+            {},
+            [options] { return disasm(*options); }};
+  add_files(verb, *options, "Scripts, linked together");
+  add_script_options(verb, *options);
+  return verb;
 }
 
 }  // namespace mms::tools

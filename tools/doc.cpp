@@ -84,16 +84,17 @@ Exit doc(const DocOptions& options) {
 
 }  // namespace
 
-void add_doc(CLI::App& command, Exit& exit) {
-  CLI::App* verb =
-      command.add_subcommand("doc", "Print a page of the reference, or list the pages");
+Verb doc_verb() {
   auto options = std::make_shared<DocOptions>();
-  verb->add_option("PAGE", options->page, "The page; none lists them")->type_name("");
-  verb->add_option("--write", options->write, "Write all pages to a folder")->type_name("DIR");
-  verb->add_option("--check", options->check, "Fail if a page in a folder is out of date")
-      ->type_name("DIR");
-  verb->footer("Examples:\n  mms doc\n  mms doc stdlib | less");
-  verb->callback([options, &exit] { exit = doc(*options); });
+  Verb verb{"doc",
+            "Print a page of the reference, or list the pages",
+            "Examples:\n  mms doc\n  mms doc stdlib | less",
+            {},
+            [options] { return doc(*options); }};
+  verb.add({"PAGE", &options->page, "", "The page; none lists them"});
+  verb.add({"--write", &options->write, "DIR", "Write all pages to a folder"});
+  verb.add({"--check", &options->check, "DIR", "Fail if a page in a folder is out of date"});
+  return verb;
 }
 
 }  // namespace mms::tools

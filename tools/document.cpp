@@ -9,7 +9,7 @@
 
 #include "api/library.h"
 #include "lang/parser.h"
-#include "tools/commands.h"
+#include "tools/command.h"
 #include "vm/limits.h"
 
 namespace mms::tools {
@@ -143,16 +143,15 @@ std::string bytecode_document() {
 }
 
 std::string cli_document() {
-  Exit exit = Exit::Ok;
-  CLI::App command;
-  build_command(command, exit);
   std::string text = fmt::format(
       "# The command\n\n{}\n```\n{}```\n\n## Exit codes\n\n| Code | Meaning |\n|---|---|\n", kMade,
-      command.help());
+      command_help());
   for (const ExitInfo& row : kExits)
     text += fmt::format("| {} | {} |\n", static_cast<int>(row.code), row.doc);
-  for (const CLI::App* verb : command.get_subcommands([](const CLI::App*) { return true; }))
-    text += fmt::format("\n## mms {}\n\n```\n{}```\n", verb->get_name(), verb->help("mms"));
+  const std::vector<std::string> helps = verb_helps();
+  const std::vector<Verb> all = verbs();
+  for (std::size_t i = 0; i < all.size(); ++i)
+    text += fmt::format("\n## mms {}\n\n```\n{}```\n", all[i].name, helps[i]);
   return text;
 }
 

@@ -160,28 +160,31 @@ Exit eval(const EvalOptions& options) {
 
 }  // namespace
 
-void add_eval(CLI::App& command, Exit& exit) {
-  CLI::App* verb = command.add_subcommand(
-      "eval", "Print the value of an expression, or of a script's constants");
+Verb eval_verb() {
   auto options = std::make_shared<EvalOptions>();
-  verb->add_option("EXPRESSION", options->item,
-                   "An expression; or a script (*.mms, - is standard input) to print constants of")
-      ->required()
-      ->type_name("");
-  verb->add_option("-f,--file", options->files, "A script whose names the expression may use")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
-  verb->add_option("--set", options->settings, "Value of a $variable; SI units, commas between")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
-  verb->add_option("--precision", options->precision, "float, as in pictures, or double")
-      ->type_name("TYPE")
-      ->check(CLI::IsMember({"float", "double"}).description(""));
-  add_script_options(*verb, *options);
-  verb->footer(
+  Verb verb{
+      "eval",
+      "Print the value of an expression, or of a script's constants",
       "Examples:\n  mms eval '2^0.5'\n  mms eval --set position=1,2,3 'perlin($position)'\n"
-      "  mms eval -- '-1 % 3'\n  mms eval -f marble.mms 'ridged($object_position, 6, 0.5, 0.0)'");
-  verb->callback([options, &exit] { exit = eval(*options); });
+      "  mms eval -- '-1 % 3'\n  mms eval -f marble.mms 'ridged($object_position, 6, 0.5, 0.0)'",
+      {},
+      [options] { return eval(*options); }};
+  verb.add({"EXPRESSION",
+            &options->item,
+            "",
+            "An expression; or a script (*.mms, - is standard input) to print constants of",
+            {},
+            true});
+  verb.add({"-f,--file", &options->files, "FILE", "A script whose names the expression may use"});
+  verb.add({"--set", &options->settings, "NAME=VALUE",
+            "Value of a $variable; SI units, commas between"});
+  verb.add({"--precision",
+            &options->precision,
+            "TYPE",
+            "float, as in pictures, or double",
+            {"float", "double"}});
+  add_script_options(verb, *options);
+  return verb;
 }
 
 }  // namespace mms::tools

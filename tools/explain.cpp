@@ -37,14 +37,14 @@ Exit explain(std::string code) {
 
 }  // namespace
 
-void add_explain(CLI::App& command, Exit& exit) {
-  CLI::App* verb = command.add_subcommand("explain", "Explain a message by its code");
+Verb explain_verb() {
   auto code = std::make_shared<std::string>();
-  verb->add_option("CODE", *code, "The code in brackets, as in error[E0203]")
-      ->required()
-      ->type_name("");
-  verb->footer("Examples:\n  mms explain E0203");
-  verb->callback([code, &exit] { exit = explain(*code); });
+  Verb verb{
+      "explain", "Explain a message by its code", "Examples:\n  mms explain E0203", {}, [code] {
+        return explain(*code);
+      }};
+  verb.add({"CODE", code.get(), "", "The code in brackets, as in error[E0203]", {}, true});
+  return verb;
 }
 
 }  // namespace mms::tools

@@ -141,17 +141,17 @@ Exit info(const ScriptOptions& options) {
 
 }  // namespace
 
-void add_info(CLI::App& command, Exit& exit) {
-  CLI::App* verb = command.add_subcommand("info", "Tell what a linked script knows about itself");
+Verb info_verb() {
   auto options = std::make_shared<ScriptOptions>();
-  verb->add_option("FILE", options->files, "Scripts, linked together; - is standard input")
-      ->required()
-      ->type_name("");
-  add_script_options(*verb, *options);
-  add_format_option(*verb, *options);
-  verb->footer(
-      "Examples:\n  mms info marble.mms\n  mms info --format=json marble.mms | jq .params");
-  verb->callback([options, &exit] { exit = info(*options); });
+  Verb verb{"info",
+            "Tell what a linked script knows about itself",
+            "Examples:\n  mms info marble.mms\n  mms info --format=json marble.mms | jq .params",
+            {},
+            [options] { return info(*options); }};
+  add_files(verb, *options, "Scripts, linked together");
+  add_script_options(verb, *options);
+  add_format_option(verb, *options);
+  return verb;
 }
 
 }  // namespace mms::tools

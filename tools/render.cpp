@@ -70,41 +70,40 @@ Exit render(RenderRequest request) {
   return render_pictures(request);
 }
 
-void add_picture_options(CLI::App& verb, RenderRequest& r) {
-  verb.add_option("-o,--output", r.output,
-                  "Picture (.png or .exr), or a folder for NAME.png of each script")
-      ->type_name("PATH");
-  verb.add_option("--samples", r.samples, "Samples for each pixel [64]")->type_name("N");
-  verb.add_option("--size", r.size, "Width and height in pixels [512x512]")->type_name("WxH");
-  verb.add_option("--scene", r.scene, "A built-in scene, or a scene file (.json) [sphere]")
-      ->type_name("NAME|FILE");
-  verb.add_option("--surface", r.surface, "Surface that the test object wears")->type_name("NAME");
-  verb.add_option("--volume", r.volume, "Volume that fills the test object")->type_name("NAME");
-  verb.add_option("--exposure", r.exposure, "Stops that brighten a .png [0]")->type_name("STOPS");
-  verb.add_option("--max-depth", r.max_depth, "Scattering events of a path [64]")->type_name("N");
-  verb.add_option("--seed", r.seed, "Same seed, same picture, bit for bit [0]")->type_name("N");
-  verb.add_option("--threads", r.threads, "Threads; 0 is all of the machine [0]")->type_name("N");
+void add_picture_options(Verb& verb, RenderRequest& r) {
+  verb.add({"-o,--output", &r.output, "PATH",
+            "Picture (.png or .exr), or a folder for NAME.png of each script"});
+  verb.add({"--samples", &r.samples, "N", "Samples for each pixel [64]"});
+  verb.add({"--size", &r.size, "WxH", "Width and height in pixels [512x512]"});
+  verb.add(
+      {"--scene", &r.scene, "NAME|FILE", "A built-in scene, or a scene file (.json) [sphere]"});
+  verb.add({"--surface", &r.surface, "NAME", "Surface that the test object wears"});
+  verb.add({"--volume", &r.volume, "NAME", "Volume that fills the test object"});
+  verb.add({"--exposure", &r.exposure, "STOPS", "Stops that brighten a .png [0]"});
+  verb.add({"--max-depth", &r.max_depth, "N", "Scattering events of a path [64]"});
+  verb.add({"--seed", &r.seed, "N", "Same seed, same picture, bit for bit [0]"});
+  verb.add({"--threads", &r.threads, "N", "Threads; 0 is all of the machine [0]"});
+  verb.add({"--report", &r.report, "", "Print the counters of the render too"});
+  verb.add({"--quiet", &r.quiet, "", "Print errors only"});
 }
 
 }  // namespace
 
-void add_render(CLI::App& command, Exit& exit) {
-  CLI::App* verb = command.add_subcommand("render", "Render scripts to pictures of a test object");
+Verb render_verb() {
   auto request = std::make_shared<RenderRequest>();
-  verb->add_option("FILE", request->files, "Scripts, a picture of each; - is standard input")
-      ->required()
-      ->type_name("");
-  add_picture_options(*verb, *request);
-  verb->add_flag("--report", request->report, "Print the counters of the render too");
-  verb->add_flag("--quiet", request->quiet, "Print errors only");
-  add_script_options(*verb, *request);
-  add_format_option(*verb, *request);
-  verb->footer(
-      "Ctrl-C stops, writes what is there, and ends with code 130.\n\nExamples:\n"
-      "  mms render marble.mms\n  mms render marble.mms -o marble.exr --samples 256\n"
-      "  mms render examples/*.mms -o out/ --size 256x256\n"
-      "  mms render --param scale=8 --surface marble marble.mms --report");
-  verb->callback([request, &exit] { exit = render(*request); });
+  Verb verb{"render",
+            "Render scripts to pictures of a test object",
+            "Ctrl-C stops, writes what is there, and ends with code 130.\n\nExamples:\n"
+            "  mms render marble.mms\n  mms render marble.mms -o marble.exr --samples 256\n"
+            "  mms render examples/*.mms -o out/ --size 256x256\n"
+            "  mms render --param scale=8 --surface marble marble.mms --report",
+            {},
+            [request] { return render(*request); }};
+  add_files(verb, *request, "Scripts, a picture of each");
+  add_picture_options(verb, *request);
+  add_script_options(verb, *request);
+  add_format_option(verb, *request);
+  return verb;
 }
 
 }  // namespace mms::tools

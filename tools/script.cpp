@@ -6,44 +6,38 @@
 #include <cstdlib>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "api/library.h"
 #include "lang/parser.h"
 
 namespace mms::tools {
 
-namespace {
-
-/// The words that an option takes; its help text lists them.
-CLI::Validator one_of(const std::vector<std::string>& words) {
-  return CLI::IsMember(words).description("");
+void add_files(Verb& verb, ScriptOptions& o, const std::string& doc) {
+  verb.add({"FILE", &o.files, "", doc + "; - is standard input", {}, true});
 }
 
-}  // namespace
-
-void add_script_options(CLI::App& verb, ScriptOptions& o) {
-  verb.add_option("-I", o.import_path, "Folder to look for imports in, after the script's own")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
-  verb.add_option("-O", o.level, "Optimisation level: -O0, -O1 or -O2; the values never differ")
-      ->type_name("LEVEL")
-      ->check(one_of({"0", "1", "2"}));
-  verb.add_option("--param", o.params, "Value of a `param` of the script")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
-  verb.add_option("-W", o.warnings, "Written -Werror: warnings are errors")
-      ->type_name("error")
-      ->check(one_of({"error"}));
-  verb.add_option("--color", o.colour, "Colour messages: auto, always or never")
-      ->type_name("WHEN")
-      ->check(one_of({"auto", "always", "never"}));
+void add_script_options(Verb& verb, ScriptOptions& o) {
+  verb.add({"-I", &o.import_path, "DIR", "Folder to look for imports in, after the script's own"});
+  verb.add({"-O",
+            &o.level,
+            "LEVEL",
+            "Optimisation level: -O0, -O1 or -O2; the values never differ",
+            {"0", "1", "2"}});
+  verb.add({"--param", &o.params, "NAME=VALUE", "Value of a `param` of the script"});
+  verb.add({"-W", &o.warnings, "error", "Written -Werror: warnings are errors", {"error"}});
+  verb.add({"--color",
+            &o.colour,
+            "WHEN",
+            "Colour messages: auto, always or never",
+            {"auto", "always", "never"}});
 }
 
-void add_format_option(CLI::App& verb, ScriptOptions& o) {
-  verb.add_option("--format", o.format, "text (the default) is for people, json for pipelines")
-      ->type_name("FORMAT")
-      ->check(one_of({"text", "json"}));
+void add_format_option(Verb& verb, ScriptOptions& o) {
+  verb.add({"--format",
+            &o.format,
+            "FORMAT",
+            "text (the default) is for people, json for pipelines",
+            {"text", "json"}});
 }
 
 bool colours(const ScriptOptions& options) {

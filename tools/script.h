@@ -11,15 +11,9 @@
 
 #include "base/result.h"
 #include "lang/link.h"
-#include "tools/exit.h"
-
-namespace CLI {
-class App;
-}
+#include "tools/verb.h"
 
 namespace mms::tools {
-
-enum class Colour { Automatic, Always, Never };
 
 /// Options that every verb over scripts takes.
 struct ScriptOptions {
@@ -30,9 +24,11 @@ struct ScriptOptions {
   bool json() const { return format == "json"; }
 };
 
-/// Adds everything but `files` and `format`, which a verb names itself.
-void add_script_options(CLI::App& verb, ScriptOptions& options);
-void add_format_option(CLI::App& verb, ScriptOptions& options);
+/// `FILE...`, required; `doc` says what the files are to the verb.
+void add_files(Verb& verb, ScriptOptions& options, const std::string& doc);
+/// Adds everything but `files` and `format`. `options` outlives the verb.
+void add_script_options(Verb& verb, ScriptOptions& options);
+void add_format_option(Verb& verb, ScriptOptions& options);
 
 /// Whether messages get ANSI colours.
 bool colours(const ScriptOptions& options);
