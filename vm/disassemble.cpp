@@ -93,6 +93,8 @@ std::string operand_text(const Program& program, const Instruction& i) {
     case OperandForm::Function:
       return i.a < program.functions.size() ? program.functions[i.a].name
                                             : unknown("function", i.a);
+    case OperandForm::Wavelength:
+      return cat({"wavelength ", text(i.a)});
     case OperandForm::Builtin:
       return cat({builtin_text(program, i.a), i.op == Op::CallSpectral ? spectra_text(i.b) : ""});
   }

@@ -446,6 +446,8 @@ void Frame<R>::pass() {
       case LoweredOp::Else:
       case LoweredOp::End:
       case LoweredOp::CallSpectral:
+      case LoweredOp::Component:
+      case LoweredOp::Pack:
         __builtin_unreachable();
     }
   }

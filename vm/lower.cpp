@@ -159,7 +159,7 @@ class FunctionLowering {
     for (const Operand o : {a, b, c}) slots_.read(o);
     code_.instructions.push_back({op, dst, a, b, c, 0});
     code_.lines.push_back(line_);
-    slots_.define(dst, {false, code_.instructions.size() - 1});
+    slots_.define(dst, Definition{false, code_.instructions.size() - 1});
     return code_.instructions.size() - 1;
   }
   void land(std::size_t pc) {
@@ -203,6 +203,10 @@ class FunctionLowering {
         stack_.back() = {stack_.back().at.splatted(), SlotType::Spectrum};
         return;
       }
+      case Op::Component:
+        return component(int(i.a));
+      case Op::Pack:
+        return pack();
       case Op::If:
         return begin_if(program_.block_types[i.a].size());
       case Op::Else:
@@ -238,6 +242,28 @@ class FunctionLowering {
     emit(i.op, i.dst, i.a, i.b, i.c);
     if (!in_place(row)) release(in);
     push(i.dst, type);
+  }
+
+  /// A component of what is no slot, and of a real that stands for a spectrum, is there already.
+  void component(int k) {
+    const Value s = pop();
+    if (s.at.splat()) return push(s.at.unsplatted(), SlotType::Real);
+    if (s.at.base() != Operand::Slot) return push(s.at.component(k), SlotType::Real);
+    slots_.read(s.at);
+    const Operand dst = slots_.allocate(SlotType::Real);
+    emit(LoweredOp::Copy, dst, s.at.component(k));
+    release({s});
+    push(dst, SlotType::Real);
+  }
+
+  void pack() {
+    const std::vector<Value> in = pop(kWavelengths);
+    const Operand dst = slots_.allocate(SlotType::Spectrum);
+    for (int k = 0; k < kWavelengths; ++k)
+      emit(LoweredOp::Copy, dst.component(k), in[std::size_t(k)].at);
+    slots_.define(dst, std::nullopt);
+    release(in);
+    push(dst, SlotType::Spectrum);
   }
 
   /// Whether the first two operands are factors: they commute to the bit.
@@ -430,7 +456,7 @@ class FunctionLowering {
     const std::uint32_t first = std::uint32_t(code_.operands.size());
     for (const SlotType t : types) {
       const Operand o = slots_.allocate(t);
-      if (t != SlotType::Spectrum) slots_.define(o, {true, code_.operands.size()});
+      if (t != SlotType::Spectrum) slots_.define(o, Definition{true, code_.operands.size()});
       for (int k = 0; k < block_count(t); ++k) code_.operands.push_back(o.component(k));
       push(o, t);
     }

@@ -55,6 +55,8 @@ struct Operand {
   Operand component(int k) const {
     return splat() ? *this : Operand{bits + (std::uint32_t(k) << 3)};
   }
+  /// The real block that stands for a spectrum, as itself.
+  Operand unsplatted() const { return {bits & ~4u}; }
 
   [[gnu::always_inline]] std::uint32_t base() const { return bits & 3; }
   /// A real block that stands for a spectrum.

@@ -30,7 +30,8 @@ enum class OperandForm : std::uint8_t {
   Local,
   BlockType,
   Function,
-  Builtin
+  Builtin,
+  Wavelength  ///< number of a wavelength of the path
 };
 
 struct OpInfo {

@@ -47,7 +47,8 @@ class Slots {
   }
 
   /// Says what wrote `o`; to be called after the operands of that are read.
-  void define(Operand o, Definition d) {
+  /// None: several places write parts of it.
+  void define(Operand o, std::optional<Definition> d) {
     if (o.base() != Operand::Slot) return;
     slots_[o.index()].definition = d;
     slots_[o.index()].reads = 0;

@@ -160,6 +160,8 @@ class CodeVerifier {
         return program_.functions.size();
       case OperandForm::Builtin:
         return program_.builtins.size();
+      case OperandForm::Wavelength:
+        return kWavelengths;
     }
     return 0;
   }

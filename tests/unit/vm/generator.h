@@ -184,12 +184,13 @@ class Generator {
   void instruction(SlotType type, int depth) {
     std::vector<Op> fitting;
     for (int k = 0; k < kOpCount; ++k)
-      if (kOps[k].operand == OperandForm::None && kOps[k].pushes == std::string(1, letter(type)))
+      if ((kOps[k].operand == OperandForm::None || kOps[k].operand == OperandForm::Wavelength) &&
+          kOps[k].pushes == std::string(1, letter(type)))
         fitting.push_back(static_cast<Op>(k));
     const Op op = fitting[pick(int(fitting.size()))];
     for (const char c : info(op).pops)
       expression(c == 'r' ? R : c == 'i' ? I : c == 'l' ? L : S, depth);
-    a_.op(op);
+    a_.op(op, info(op).operand == OperandForm::Wavelength ? std::uint32_t(pick(kWavelengths)) : 0);
   }
 
   /// An If that leaves a value, or three of which one is chosen.

@@ -66,6 +66,25 @@ TEST_CASE_TEMPLATE("operations of constants alone, and of spectra with constants
   check_against_reference(a.program, 0, points);
 }
 
+TEST_CASE_TEMPLATE("components of inputs, constants and computed spectra, and spectra of them", T,
+                   float, double) {
+  Assembler a;
+  a.function("f", {}, {R, R, R, S, S}, {S});
+  a.input(Variable::Wavelength).op(Op::Component, 3);   // of an input: where it stands
+  a.real(3).op(Op::Splat).op(Op::Component, 5);         // of a real that stands for a spectrum
+  a.input(Variable::Wavelength).op(Op::NegS).store(0);  // of a slot: a copy
+  a.load(0).op(Op::Component, 7);
+  for (int k = kWavelengths; k-- > 0;) a.load(0).op(Op::Component, std::uint32_t(k));
+  a.op(Op::Pack);  // reversed
+  for (int k = 0; k < kWavelengths; ++k) a.op(Op::PushInput, k % 2 ? kX : kY);
+  a.ops({Op::Pack, Op::NegS}).ret();
+  auto points = spread<T>(40);
+  for (int k = 0; k < 40; ++k)
+    for (int w = 0; w < kWavelengths; ++w)
+      points[std::size_t(k)][input_index(Variable::Wavelength)].r[w] = T(k + 0.5 * w);
+  check_against_reference(a.program, 0, points);
+}
+
 /// `loop(n, s, c) = n <= 0 ? (s, c) : loop(n - 1, s + c y, scaled(c))`, and lanes of negative x
 /// never end; `scaled` reads an input too.
 Program diverging() {

@@ -286,6 +286,19 @@ typename Reference<T>::Values Reference<T>::run(std::uint32_t function, Values l
         stack.insert(stack.end(), results.begin(), results.end());
         break;
       }
+      case Op::Component: {
+        Cell<T> value;
+        value.r[0] = pop(stack, 1)[0].r[i.a];
+        stack.push_back(value);
+        break;
+      }
+      case Op::Pack: {
+        const Values in = pop(stack, kWavelengths);
+        Cell<T> spectrum;
+        for (int k = 0; k < kWavelengths; ++k) spectrum.r[k] = in[std::size_t(k)].r[0];
+        stack.push_back(spectrum);
+        break;
+      }
       case Op::CallSpectral: {
         const Values args = pop(stack, p_.builtin_params[i.a].size());
         Cell<T> result;

@@ -52,14 +52,20 @@ TEST_CASE("code: every path leaves, and nothing follows that is not reached") {
 }
 
 TEST_CASE("code: operands are in range") {
-  for (const Op op :
-       {Op::PushConst, Op::PushInput, Op::LoadLocal, Op::Call, Op::CallBuiltin, Op::CallSpectral}) {
+  for (const Op op : {Op::PushConst, Op::PushInput, Op::LoadLocal, Op::Call, Op::CallBuiltin,
+                      Op::CallSpectral, Op::Component}) {
     CAPTURE(info(op).name);
     CHECK(what_of_code({}, {}, [&](Assembler& a) { a.op(op, 100000).ret(); }) ==
           "the operand is out of range");
   }
   CHECK(what_of_code({}, {}, [](Assembler& a) { a.real(1).op(Op::StoreLocal, 0).ret(); }) ==
         "the operand is out of range");
+  CHECK(what_of_code({R}, {}, [](Assembler& a) {
+          a.input(Variable::Wavelength).op(Op::Component, kWavelengths).ret();
+        }) == "the operand is out of range");
+  CHECK(what_of_code({R}, {}, [](Assembler& a) {
+          a.input(Variable::Wavelength).op(Op::Component, kWavelengths - 1).ret();
+        }) == "");
   CHECK(what_of_code({}, {}, [](Assembler& a) { a.logic(true).op(Op::If, 0).end().ret(); }) ==
         "the operand is out of range");
 }
