@@ -59,7 +59,7 @@ Value Elaborator::expr(Context c, ExprHandle h) {
     case Expr::Form::FunctionValue:
     case Expr::Form::Lambda: {
       auto f = std::make_shared<FunctionValue>();
-      *f = {c.graph, h, c.scope, e.path, std::nullopt, e.span};
+      *f = {c.graph, h, c.scope, e.path, std::nullopt, e.span, false};
       if (e.form == Expr::Form::FunctionValue && e.path.empty()) f->op = e.op;
       if (!e.path.empty()) {
         Binding* b = find(c, e.path);
@@ -293,6 +293,16 @@ Value Elaborator::expr_chain(Context c, const Expr& e) {
   return all;
 }
 
+/// An arm's value as the type it shares with the arms that are out.
+Value Elaborator::join_arms(Context c, const Expr& e, ExprHandle value, const Value& v,
+                            TypeId other) {
+  const TypeId type = types_.join(v.type, other);
+  if (type != TypeTable::kPoison) return widen(v, type);
+  diagnostics_.add(Diag::ArmsDiffer, e.span, spell(v), types_.spell(other))
+      .note((*c.graph)[value].span, "an arm is here");
+  return {};
+}
+
 Value Elaborator::expr_select(Context c, const Expr& e, std::size_t arm) {
   if (2 * arm + 1 >= e.args.size()) return expr(c, e.args[2 * arm]);
   const ExprHandle value = e.args[2 * arm], condition = e.args[2 * arm + 1];
@@ -302,8 +312,16 @@ Value Elaborator::expr_select(Context c, const Expr& e, std::size_t arm) {
         .labelled("a condition is `logic`");
     return {};
   }
-  if (const auto decided = cond.poison() ? std::nullopt : known_logic(cond))
-    return *decided ? expr(c, value) : expr_select(c, e, arm + 1);
+  if (const auto decided = cond.poison() ? std::nullopt : known_logic(cond)) {
+    const Value v = *decided ? expr(c, value) : expr_select(c, e, arm + 1);
+    std::vector<ExprHandle> out;  // the arms that are out: the type is that of all of them
+    for (std::size_t k = arm; k < e.args.size() / 2 + 1; ++k)
+      if (*decided ? k > arm : k == arm) out.push_back(e.args[2 * k]);
+    const TypeId other = peek_joined(c, out);
+    return v.poison() || other == TypeTable::kPoison || other == v.type
+               ? v
+               : join_arms(c, e, value, v, other);
+  }
   ++dynamic_;
   Value a = expr(c, value);
   Value b = expr_select(c, e, arm + 1);

@@ -11,7 +11,7 @@ namespace mms::lang {
 
 Scope* Elaborator::new_scope(Scope* parent, bool library) {
   scopes_.push_back(
-      {parent, library || (parent && parent->library && parent != library_scope_), {}, {}});
+      {parent, library || (parent && parent->library && parent != library_scope_), false, {}, {}});
   return &scopes_.back();
 }
 
@@ -88,12 +88,28 @@ void Elaborator::declare_constant(Context c, const Constant& k) {
   declare(c.scope, k.name, std::move(b));
 }
 
+std::vector<Binding*> Elaborator::bindings_in(Scope* scope, std::string_view name) {
+  std::vector<Binding*> found;
+  auto it = scope->names.find(name);
+  if (it != scope->names.end()) found.push_back(&it->second);
+  if (scope->imports.empty()) return found;
+  std::set<Scope*> seen{scope};
+  std::vector<Scope*> pending(scope->imports.rbegin(), scope->imports.rend());
+  while (!pending.empty()) {
+    Scope* s = pending.back();
+    pending.pop_back();
+    if (!seen.insert(s).second) continue;
+    it = s->names.find(name);
+    if (it != s->names.end()) found.push_back(&it->second);
+    pending.insert(pending.end(), s->imports.rbegin(), s->imports.rend());
+  }
+  return found;
+}
+
 Binding* Elaborator::find(Scope* scope, std::string_view name) {
   for (Scope* s = scope; s; s = s->parent) {
-    auto it = s->names.find(name);
-    if (it != s->names.end()) return &it->second;
-    for (Scope* i : s->imports)
-      if (it = i->names.find(name); it != i->names.end()) return &it->second;
+    const std::vector<Binding*> found = bindings_in(s, name);
+    if (!found.empty()) return found[0];
   }
   return nullptr;
 }
@@ -115,17 +131,30 @@ std::vector<std::string> Elaborator::visible_names(Scope* scope) {
   return names;
 }
 
-void Elaborator::unknown_name(Context c, const Path& path, Diag id) {
+void Elaborator::unknown_name(Context c, const Path& path, Diag id,
+                              const std::vector<std::string>& inside) {
   std::string spelled = path[0].text;
   for (std::size_t i = 1; i < path.size(); ++i) spelled += "::" + path[i].text;
   Diagnostic& d = diagnostics_.add(id, join(path.front().span, path.back().span), spelled);
-  const std::string near = nearest(path.back().text, visible_names(c.scope));
+  std::vector<std::string> names = visible_names(c.scope);
+  names.insert(names.begin(), inside.begin(), inside.end());
+  const std::string near = nearest(path.back().text, names);
   if (!near.empty()) d.help(fmt::format("did you mean `{}`?", near));
   const bool variable =
       std::any_of(vm::kVariables.begin(), vm::kVariables.end(),
                   [&](const vm::VariableInfo& v) { return v.name == path.back().text; });
   if (variable)
     d.help(fmt::format("what the renderer knows of the hit is written `${}`", path.back().text));
+}
+
+/// A size that a formal brought: -1, and said so, where it is no size.
+int Elaborator::known_size(int size) {
+  if (size >= 1 && size <= vm::limits::kAggregate) return size;
+  if (size != kUnknownSize)
+    diagnostics_.add(Diag::ArraySize, user_span_, size, vm::limits::kAggregate);
+  else if (!unknown_arguments_)
+    diagnostics_.add(Diag::NeedsConstant, user_span_, "the size of an array");
+  return -1;
 }
 
 int Elaborator::resolve_dim(Context c, const TypeExpr::Dim& d, const Generics* generics) {
@@ -138,7 +167,7 @@ int Elaborator::resolve_dim(Context c, const TypeExpr::Dim& d, const Generics* g
   if (d.form != Form::Integer) {
     if (generics && d.path.size() == 1) {
       auto it = generics->dims.find(d.path[0].text);
-      if (it != generics->dims.end()) return it->second;
+      if (it != generics->dims.end()) return known_size(it->second);
     }
     Binding* b = find(c, d.path);
     if (!b) {

@@ -215,6 +215,7 @@ Value Elaborator::call_instance(FunctionDecl* d, const std::vector<Value>& forma
       for (Ref& r : refs) r = localise(r);
       module.functions[function_].results = std::move(refs);
     }
+    instance.complete = true;
     frames_.resize(depth);
     function_ = caller;
     dynamic_ = dynamic;

@@ -218,52 +218,6 @@ void Elaborator::add_aliases(const Graph& graph, Scope* scope) {
   }
 }
 
-/// Checks a function that nothing may have called yet, with arguments that nobody knows.
-void Elaborator::check_function(FunctionDecl* d) {
-  const Function& f = d->function();
-  const Context c{d->graph, d->scope};
-  std::vector<TypeId> types;
-  for (const Formal& formal : f.formals) {
-    const std::vector<TypeExpr>& all = d->graph->types;
-    // Generic functions and open arrays are checked where they are called.
-    std::vector<TypeHandle> pending{formal.type};
-    while (!pending.empty()) {
-      const TypeExpr& t = all[pending.back().index];
-      pending.pop_back();
-      if (t.form == TypeExpr::Form::Generic || t.form == TypeExpr::Form::Function) return;
-      if (t.form == TypeExpr::Form::Named && !find(c, t.path)) {
-        const bool earlier = std::any_of(all.begin(), all.end(), [&](const TypeExpr& g) {
-          return g.form == TypeExpr::Form::Generic && g.path[0].text == t.path[0].text;
-        });
-        if (earlier) return;
-      }
-      for (const TypeExpr::Dim& dim : t.dims)
-        if (dim.form == TypeExpr::Dim::Form::Open || dim.form == TypeExpr::Dim::Form::Generic ||
-            (dim.form == TypeExpr::Dim::Form::Named && !find(c, dim.path)))
-          return;
-      if (t.form == TypeExpr::Form::Array) pending.push_back(t.element);
-    }
-    types.push_back(resolve_type(c, formal.type, nullptr));
-    if (!types_.is_numeric(types.back())) return;
-  }
-  function_ = new_function("check " + f.name.text);
-  std::vector<Value> formals;
-  for (TypeId type : types) {
-    std::vector<SlotType> slots;
-    slot_types(type, slots);
-    std::vector<Ref> refs;
-    for (SlotType s : slots) refs.push_back(node(vm::Op::LoadLocal, {}, 0, 0, {s}));
-    std::size_t next = 0;
-    formals.push_back(unflatten(type, refs, next));
-  }
-  const TypeId result = resolve_type(c, f.result, nullptr);
-  if (result == TypeTable::kPoison) return;
-  unknown_arguments_ = !formals.empty();
-  const Value v = invoke(d, formals, {}, result, f.header);
-  unknown_arguments_ = false;
-  if (f.formals.empty() && !d->library) export_value(f.name.text, v);
-}
-
 void Elaborator::check_constant(const Graph& graph, const Constant& k, Scope* scope) {
   function_ = new_function("const " + k.name.text);
   Binding* b = find(scope, k.name.text);

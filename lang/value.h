@@ -39,6 +39,7 @@ struct FunctionValue {
   Path path;               ///< `#path`
   std::optional<Operator> op;
   Span span;
+  bool opaque = false;  ///< stands for a function nobody knows: only its type is checked
 };
 
 /// A material expression: one scattering model or combiner, its numbers and its parts.
@@ -88,7 +89,8 @@ struct Binding {
 struct Scope {
   Scope* parent = nullptr;
   bool library = false;
-  std::vector<Scope*> imports;  ///< of files that another scope took in first
+  bool file = false;            ///< the top level of a script
+  std::vector<Scope*> imports;  ///< of files whose names are read here without a prefix
   std::map<std::string, Binding, std::less<>> names;
 };
 
