@@ -87,7 +87,7 @@ Value Elaborator::call_named(Context c, const Path& path, std::vector<BoundArgum
       unknown_name(c, path, Diag::UnknownFunction);
     return {};
   }
-  if (b->form == Binding::Form::Type) return construct(b->type, args, span);
+  if (b->form == Binding::Form::Type) return construct(type_of(*b), args, span);
   if (b->form == Binding::Form::Value && types_.is_function(b->value.type))
     return call_function_value(b->value, std::move(args), span);
   if (b->form == Binding::Form::Constant) {
@@ -157,7 +157,7 @@ Value Elaborator::call_candidates(const std::vector<std::vector<Candidate>>& lev
   for (const std::vector<Candidate>& level : levels) {
     Match best;
     const Candidate* winner = nullptr;
-    bool tie = false;
+    const Candidate* rival = nullptr;
     for (const Candidate& k : level) {
       Match m = match(k, args);
       if (m.cost < 0) {
@@ -165,14 +165,19 @@ Value Elaborator::call_candidates(const std::vector<std::vector<Candidate>>& lev
         seen.push_back(describe(k));
         continue;
       }
-      tie = winner && m.cost == best.cost;
+      if (winner && m.cost == best.cost) rival = &k;
+      if (winner && m.cost < best.cost) rival = nullptr;
       if (!winner || m.cost < best.cost) {
         best = std::move(m);
         winner = &k;
       }
     }
     if (!winner) continue;
-    if (tie) diagnostics_.add(Diag::Ambiguous, span, name);
+    if (rival) {
+      Diagnostic& d = diagnostics_.add(Diag::Ambiguous, span, name);
+      for (const Candidate* k : {winner, rival})
+        if (k->decl) d.note(k->decl->function().header, "this one fits");
+    }
     return winner->row ? call_builtin(winner->row, best, args, span)
                        : call_script(winner->decl, best, args, span);
   }
@@ -309,6 +314,7 @@ Value Elaborator::construct(TypeId type, std::vector<BoundArgument>& args, Span 
   const Type t = types_[type];
   for (const BoundArgument& a : args)
     if (a.value.poison()) return {};
+  if (type == TypeTable::kPoison) return {};
   if (t.form != Type::Form::Struct) {
     diagnostics_.add(Diag::NotCallable, span, types_.spell(type));
     return {};
@@ -488,7 +494,9 @@ bool Elaborator::infer_results(Context c, const Function& f, const std::vector<V
       if (!known_types) continue;
       const std::size_t errors = diagnostics_.error_count();
       const TypeId type = result_of(formals[i], types, spans[i]);
-      if (diagnostics_.error_count() > errors) return false;
+      if (diagnostics_.error_count() > errors ||
+          (type == TypeTable::kPoison && diagnostics_.has_errors()))
+        return false;  // told, now or before
       int cost = 0;
       if (type != TypeTable::kPoison) unify(c, t.element, type, g, cost);
     }
@@ -542,6 +550,13 @@ Value Elaborator::call_script(FunctionDecl* d, const Match& m, std::vector<Bound
   Generics g = m.generics;
   std::vector<Value> formals = with_defaults(d, m, args);
   if (formals.size() != f.formals.size() || !infer_results(c, f, formals, spans, g)) return {};
+  for (const std::string& name : g.names)
+    if (!g.types.count(name)) {
+      if (!unknown_arguments_)
+        diagnostics_.add(Diag::GenericHere, user_span_, name)
+            .help("nothing says what the function gives: give it a stated type");
+      return {};
+    }
   Generics sizes = g;  // the size of a result may be an integer formal that is known at link
   for (std::size_t i = 0; i < f.formals.size(); ++i) {
     const TypeId type = formal_type(c, f.formals[i].type, formals[i].type, g);

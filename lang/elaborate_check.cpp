@@ -38,12 +38,30 @@ Value Elaborator::unknown_value(TypeId type) {
   return v;
 }
 
-/// Whether only a call brings the types of the formals.
+/// Types of all files and constants of those imported, used or not.
+void Elaborator::check_definitions() {
+  function_ = new_function("definitions");
+  for (std::size_t i = 0; i < scopes_.size(); ++i) {  // evaluation makes more
+    if (!scopes_[i].file) continue;
+    for (auto& [name, b] : scopes_[i].names) {
+      if (b.form == Binding::Form::Type) type_of(b);
+      if (b.form == Binding::Form::Constant && &scopes_[i] != program_scope_) evaluate_constant(b);
+    }
+  }
+}
+
+/// Whether only a call brings the types of the formals, or the size of the result.
 bool Elaborator::is_generic(Context c, const Function& f) {
   Generics g;
   for (const Formal& formal : f.formals) collect_generics(c, formal.type, g);
   return std::any_of(f.formals.begin(), f.formals.end(),
-                     [&](const Formal& formal) { return !ready(c, formal.type, g); });
+                     [&](const Formal& formal) { return !ready(c, formal.type, g); }) ||
+         std::any_of(f.formals.begin(), f.formals.end(), [&](const Formal& formal) {
+           const auto& dims = (*c.graph)[f.result].dims;
+           return std::any_of(dims.begin(), dims.end(), [&](const TypeExpr::Dim& d) {
+             return !d.path.empty() && d.path[0].text == formal.name.text;
+           });
+         });
 }
 
 void Elaborator::check_function(FunctionDecl* d) {

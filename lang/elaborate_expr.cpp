@@ -132,19 +132,38 @@ Value Elaborator::expr(Context c, ExprHandle h) {
 Value Elaborator::evaluate_constant(Binding& b) {
   auto cached = b.cache.find(function_);
   if (cached != b.cache.end()) return cached->second;
+  if (b.circular) return {};
   if (b.busy) {
-    diagnostics_.add(Diag::DefinedByItself, b.span);
+    report_circle(b);
     return {};
   }
-  b.busy = true;
+  struct Evaluating {  // left by an exception too: a recursion that is given to the machine
+    std::vector<Binding*>& open;
+    Evaluating(std::vector<Binding*>& o, Binding& k) : open(o) {
+      k.busy = true;
+      open.push_back(&k);
+    }
+    ~Evaluating() {
+      open.back()->busy = false;
+      open.pop_back();
+    }
+  } evaluating(evaluating_, b);
   Value v = expr({b.graph, b.scope}, b.expr);
   if (b.stated) {
-    const TypeId type = resolve_type({b.graph, b.scope}, b.stated, nullptr);
-    v = convert(v, type, (*b.graph)[b.expr].span, (*b.graph)[b.stated].span);
+    const TypeId type = resolve_type({b.stated_in, b.scope}, b.stated, nullptr);
+    v = convert(v, type, (*b.graph)[b.expr].span, (*b.stated_in)[b.stated].span);
   }
-  if (b.type != TypeTable::kPoison) v = convert(v, b.type, (*b.graph)[b.expr].span);
-  b.busy = false;
   return b.cache[function_] = v;
+}
+
+/// One message for all the constants that ask for each other.
+void Elaborator::report_circle(Binding& b) {
+  Diagnostic& d = diagnostics_.add(Diag::DefinedByItself, b.span);
+  auto first = std::find(evaluating_.begin(), evaluating_.end(), &b);
+  for (auto k = first; k != evaluating_.end(); ++k) {
+    (*k)->circular = true;
+    if (k != first) d.note((*k)->span, "by way of this");
+  }
 }
 
 Value Elaborator::expr_name(Context c, const Expr& e) {
@@ -152,12 +171,12 @@ Value Elaborator::expr_name(Context c, const Expr& e) {
   if (e.path.size() >= 2) {
     Path owner(e.path.begin(), e.path.end() - 1);
     Binding* t = find(c, owner);
-    if (t && t->form == Binding::Form::Type && types_[t->type].form == Type::Form::Enum) {
-      const std::vector<std::string>& members = types_[t->type].members;
+    if (t && t->form == Binding::Form::Type && types_[type_of(*t)].form == Type::Form::Enum) {
+      const std::vector<std::string>& members = types_[type_of(*t)].members;
       const auto it = std::find(members.begin(), members.end(), e.path.back().text);
       if (it == members.end()) {
-        Diagnostic& d = diagnostics_.add(Diag::NoField, e.path.back().span, types_[t->type].name,
-                                         e.path.back().text);
+        Diagnostic& d = diagnostics_.add(Diag::NoField, e.path.back().span,
+                                         types_[type_of(*t)].name, e.path.back().text);
         const std::string near = nearest(e.path.back().text, members);
         if (!near.empty()) d.help(fmt::format("did you mean `{}`?", near));
         return {};

@@ -67,19 +67,17 @@ TypeId Elaborator::peek_joined(Context c, const std::vector<ExprHandle>& values)
 TypeId Elaborator::peek_name(Context c, const Path& path) {
   if (path.size() >= 2) {
     Binding* owner = find(c, Path(path.begin(), path.end() - 1));
-    if (owner && owner->form == Binding::Form::Type) return owner->type;
+    if (owner && owner->form == Binding::Form::Type) return type_of(*owner);
   }
   Binding* b = find(c, path);
   if (!b) return kPoison;
   if (b->form == Binding::Form::Value) return b->value.type;
   if (b->form == Binding::Form::Functions) return peek_call(c, path, {});
   if (b->form != Binding::Form::Constant) return kPoison;
-  if (b->type != kPoison) return b->type;
-  const Context there{b->graph, b->scope};
-  if (b->stated) return resolve_type(there, b->stated, nullptr);
+  if (b->stated) return resolve_type({b->stated_in, b->scope}, b->stated, nullptr);
   if (peeking_ >= kDeepestPeek) return kPoison;
   ++peeking_;
-  const TypeId type = peek(there, b->expr);
+  const TypeId type = peek({b->graph, b->scope}, b->expr);
   --peeking_;
   return type;
 }
@@ -114,7 +112,7 @@ TypeId Elaborator::peek_candidates(const std::vector<std::vector<Candidate>>& le
 TypeId Elaborator::peek_call(Context c, const Path& path, const std::vector<BoundArgument>& args) {
   Binding* b = find(c, path);
   if (!b) return kPoison;
-  if (b->form == Binding::Form::Type) return types_.is_struct(b->type) ? b->type : kPoison;
+  if (b->form == Binding::Form::Type) return types_.is_struct(type_of(*b)) ? b->type : kPoison;
   if (b->form == Binding::Form::Value) return peek_call(b->value, args);
   return b->form == Binding::Form::Functions ? peek_candidates(candidates(c, path, *b), args)
                                              : kPoison;
@@ -132,7 +130,7 @@ TypeId Elaborator::peek_call(const Value& f, const std::vector<BoundArgument>& a
   if (!fn.lambda || peeking_ >= kDeepestPeek) return kPoison;
   const Expr& e = (*fn.graph)[fn.lambda];
   if (e.formals.size() != args.size()) return kPoison;
-  Scope inside{fn.scope, fn.scope->library, false, {}, {}};
+  Scope inside{fn.scope, fn.scope->library, false, {}, {}, {}};
   const Context c{fn.graph, &inside};
   for (std::size_t k = 0; k < args.size(); ++k) {
     Binding b;

@@ -117,6 +117,7 @@ void Elaborator::body(Context c, const Body& b) {
         break;
       case Item::Form::Type:
         declare_type(c, b.types[item.index]);
+        if (Binding* t = find(c.scope, b.types[item.index].name.text)) type_of(*t);
         break;
       case Item::Form::Function:
         declare_function(c, b.functions[item.index]);

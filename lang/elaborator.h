@@ -41,6 +41,7 @@ struct BoundArgument {
 struct ElaboratedDescriptor {
   const Descriptor* syntax = nullptr;
   const Graph* graph = nullptr;
+  std::string name;  ///< its own or an alias
   std::uint16_t function = 0;
   Value outputs[static_cast<std::size_t>(vm::Output::Count)];
   bool stated[static_cast<std::size_t>(vm::Output::Count)] = {};
@@ -118,6 +119,9 @@ class Elaborator {
   Scope* new_scope(Scope* parent, bool library = false);
   Binding* declare(Scope* scope, const Name& name, Binding binding);
   void declare_function(Context c, FunctionHandle h);
+  TypeId type_of(Binding& b);
+  TypeId define(Context c, const TypeDefinition& t);
+  void check_ambiguity(Scope* scope, const Name& name);
   void declare_type(Context c, const TypeDefinition& t);
   void declare_constant(Context c, const Constant& k);
   static constexpr int kUnknownSize = INT_MIN;  ///< of a dimension that is no number at link
@@ -189,6 +193,7 @@ class Elaborator {
   Value expr_convert(Context c, const Expr& e);
   Value expr_call(Context c, const Expr& e);
   Value evaluate_constant(Binding& b);
+  void report_circle(Binding& b);
 
   // --- calls (elaborate_call.cpp) ---
   const Signature& signature(const vm::Builtin* row);
@@ -275,6 +280,7 @@ class Elaborator {
   // --- checking what nobody calls (elaborate_check.cpp) ---
   Value unknown_value(TypeId type);
   void check_function(FunctionDecl* d);
+  void check_definitions();
   bool is_generic(Context c, const Function& f);
 
   // --- items and descriptors (elaborate_top.cpp) ---
@@ -282,10 +288,14 @@ class Elaborator {
   void add_graph(const Graph& graph, Scope* scope);
   void import(const Graph& from, const Import& i, Scope* scope);
   void add_params(const Graph& graph, Scope* scope);
+  std::string key_of(const Graph& graph) const;
+  bool closes_circle(const std::string& key, const Import& i);
+  std::vector<NamedDescriptor> find_descriptors(Context c, const Path& path);
+  void export_alias(const Alias& a);
   void add_aliases(const Graph& graph, Scope* scope);
   void describe_param(const Graph& graph, const Param& p, Scope* scope);
   void check_constant(const Graph& graph, const Constant& k, Scope* scope);
-  void descriptor(const Graph& graph, const Descriptor& d, Scope* scope);
+  void descriptor(const NamedDescriptor& d);
   void outputs(ElaboratedDescriptor& e, Scope* scope);
   void load_module(const Library::Module& m);
   void declare_items(const Graph& graph, Scope* scope);
@@ -302,6 +312,16 @@ class Elaborator {
   std::deque<FunctionDecl> decls_;
   std::deque<Graph> graphs_;  ///< library modules and imports
   std::map<std::string, Scope*> imported_;
+  struct OpenFile {
+    std::string key, name;
+  };
+  std::vector<OpenFile> open_files_;  ///< each imported by the one before
+  struct DeclaredParam {
+    const Graph* graph;
+    const Param* param;
+    Scope* scope;
+  };
+  std::vector<DeclaredParam> declared_params_;
   std::map<std::string, Scope*, std::less<>> modules_;
   std::map<const vm::Builtin*, std::unique_ptr<Signature>> signatures_;
   std::map<std::string, Instance> instances_;
@@ -321,8 +341,9 @@ class Elaborator {
   vm::SourceLine line_;
   bool unknown_arguments_ = false;  ///< a function is checked for arguments nobody knows: what must
                                     ///< be known at link may still be so in every call of it
-  int peeking_ = 0;                 ///< constants and lambdas that are being looked into for a type
-  bool full_ = false;               ///< a limit was hit and reported: stop making nodes
+  std::vector<Binding*> evaluating_;  ///< constants, each asked for by the one before
+  int peeking_ = 0;    ///< constants and lambdas that are being looked into for a type
+  bool full_ = false;  ///< a limit was hit and reported: stop making nodes
 };
 
 }  // namespace mms::lang
