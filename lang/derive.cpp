@@ -97,15 +97,20 @@ void Elaborator::derive_builtin(const Node& n, Ref r, Tangents& t) {
   if (total) t[r] = *total;
 }
 
+/// Whether all of the function is there to be differentiated; says so where it is not.
+bool Elaborator::is_complete(std::uint16_t function) {
+  auto instance = instance_of_.find(function);
+  if (instance == instance_of_.end() || instance->second->complete) return true;
+  diagnostics_.add(Diag::NoDerivative, deriving_.span, module.functions[function].name)
+      .help("a function cannot differentiate itself while it is being defined");
+  return false;
+}
+
 /// The function of the derivatives: parameters of `function`, then the derivative of each real one;
 /// results: the derivative of each result (zero for what is no real).
 std::uint16_t Elaborator::derive_function(std::uint16_t function, int direction) {
   auto it = derived_.find({function, direction});
   if (it != derived_.end()) return it->second;
-  auto instance = instance_of_.find(function);
-  if (instance != instance_of_.end() && !instance->second->complete)
-    diagnostics_.add(Diag::NoDerivative, deriving_.span, module.functions[function].name)
-        .help("a function cannot differentiate itself while it is being defined");
   const std::uint16_t derived = new_function(module.functions[function].name + "'");
   derived_[{function, direction}] = derived;
   const IrFunction& from = module.functions[function];
@@ -222,7 +227,7 @@ void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
     case Op::Call: {
       bool active = false;
       for (Ref a : n.args) active = active || t.count(a);
-      if (!active) return;
+      if (!active || !is_complete(static_cast<std::uint16_t>(n.a))) return;
       const std::uint16_t derived = derive_function(static_cast<std::uint16_t>(n.a), direction);
       std::vector<Ref> args = n.args;
       for (std::size_t k = 0; k < n.args.size(); ++k)

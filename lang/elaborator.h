@@ -261,6 +261,7 @@ class Elaborator {
   std::optional<Ref> tangent(const Tangents& t, Ref r) const;
   void derive_node(std::uint32_t index, int direction, Tangents& t);
   void derive_builtin(const Node& n, Ref r, Tangents& t);
+  bool is_complete(std::uint16_t function);
   std::uint16_t derive_function(std::uint16_t function, int direction);
   Ref sum(std::optional<Ref> a, std::optional<Ref> b);
   Value derive_gradient(const Value& height, Span span);
