@@ -53,8 +53,7 @@ void Elaborator::derive_builtin(const Node& n, Ref r, Tangents& t) {
   for (Ref a : n.args) active = active || t.count(a);
   if (!active) return;
   if (row->derivative.empty() || n.results.size() != 1) {
-    diagnostics_.add(Diag::NoDerivative, deriving_, row->signature)
-        .help("state the `gradient` output beside `height`");
+    diagnostics_.add(Diag::NoDerivative, deriving_.span, row->signature).help(deriving_.help);
     return;
   }
   graphs_.push_back(
@@ -96,6 +95,15 @@ void Elaborator::derive_builtin(const Node& n, Ref r, Tangents& t) {
     }
   }
   if (total) t[r] = *total;
+}
+
+/// Whether all of the function is there to be differentiated; says so where it is not.
+bool Elaborator::is_complete(std::uint16_t function) {
+  auto instance = instance_of_.find(function);
+  if (instance == instance_of_.end() || instance->second->complete) return true;
+  diagnostics_.add(Diag::NoDerivative, deriving_.span, module.functions[function].name)
+      .help("a function cannot differentiate itself while it is being defined");
+  return false;
 }
 
 /// The function of the derivatives: parameters of `function`, then the derivative of each real one;
@@ -142,8 +150,7 @@ std::uint16_t Elaborator::derive_function(std::uint16_t function, int direction)
   return derived;
 }
 
-/// Differentiates node `index` of the current function, along the tangent (direction 0) or the
-/// bitangent (1).
+/// Differentiates node `index` of the current function.
 void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
   const Node n = module.functions[function_].nodes[index];
   const Ref r{index, 0, function_};
@@ -163,9 +170,10 @@ void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
   if (n.known >= 0) return;
   switch (n.op) {
     case Op::PushInput: {
+      if (direction == kAlongNothing) return;
       const vm::Variable v = vm::input_variable(static_cast<int>(n.a));
       const std::string_view along =
-          direction == 0 ? vm::info(v).along_tangent : vm::info(v).along_bitangent;
+          direction == kAlongTangent ? vm::info(v).along_tangent : vm::info(v).along_bitangent;
       for (const vm::VariableInfo& row : vm::kVariables)
         if (!along.empty() && row.name == along)
           t[r] = input(vm::input_index(row.variable) + static_cast<int>(n.a) - vm::input_index(v));
@@ -188,7 +196,7 @@ void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
     case Op::ModR: {  // a - b floor(a / b)
       if (!d(1)) return set(d(0));
       const Value quotient = scalar(TypeTable::kReal, node(Op::DivR, {n.args[0], n.args[1]}));
-      const Ref whole = call_library("floor", {quotient}, deriving_).refs[0];
+      const Ref whole = call_library("floor", {quotient}, deriving_.span).refs[0];
       return set(add(d(0), negative(node(Op::MulR, {whole, *d(1)}))));
     }
     case Op::SelectR: {
@@ -219,7 +227,7 @@ void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
     case Op::Call: {
       bool active = false;
       for (Ref a : n.args) active = active || t.count(a);
-      if (!active) return;
+      if (!active || !is_complete(static_cast<std::uint16_t>(n.a))) return;
       const std::uint16_t derived = derive_function(static_cast<std::uint16_t>(n.a), direction);
       std::vector<Ref> args = n.args;
       for (std::size_t k = 0; k < n.args.size(); ++k)
@@ -238,17 +246,21 @@ void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
   }
 }
 
+/// The derivative of `root`, where those of `t` are given and nothing before node `first` moves.
+std::optional<Ref> Elaborator::derive(Tangents& t, Ref root, std::uint32_t first, int direction) {
+  const std::vector<bool> wanted = needed(module.functions[function_], {root});
+  for (std::uint32_t i = first; i < wanted.size(); ++i)
+    if (wanted[i]) derive_node(i, direction, t);
+  return tangent(t, root);
+}
+
 /// The derivative of `height` along `$tangent` and `$bitangent`: a `real[2]`.
 Value Elaborator::derive_gradient(const Value& height, Span span) {
-  deriving_ = span;
+  deriving_ = {span, "state the `gradient` output beside `height`"};
   std::vector<Value> parts;
-  const std::uint32_t count = static_cast<std::uint32_t>(module.functions[function_].nodes.size());
-  const std::vector<bool> wanted = needed(module.functions[function_], height.refs);
-  for (int direction = 0; direction < 2; ++direction) {
+  for (int direction : {kAlongTangent, kAlongBitangent}) {
     Tangents t;
-    for (std::uint32_t i = 0; i < count; ++i)
-      if (wanted[i]) derive_node(i, direction, t);
-    const auto d = tangent(t, height.refs[0]);
+    const auto d = derive(t, height.refs[0], 0, direction);
     parts.push_back(scalar(TypeTable::kReal, d ? *d : real(0)));
   }
   Value v;

@@ -7,6 +7,7 @@
 #include "lang/elaborator.h"
 #include "lang/parser.h"
 #include "vm/limits.h"
+#include "vm/outputs.h"
 
 namespace mms::lang {
 namespace {
@@ -15,15 +16,6 @@ using vm::Op;
 using vm::SlotType;
 
 }  // namespace
-
-/// The header of a builtin row, parsed by the language's own parser.
-struct Elaborator::Signature {
-  Graph graph;
-  std::vector<SlotType> params, results;
-  TypeId result = TypeTable::kPoison;
-  bool all_real = true;  ///< then a spectrum may stand for any argument
-  const Function& function() const { return graph.functions[0]; }
-};
 
 Elaborator::Elaborator(const Library& library, const LinkOptions& options, Diagnostics& diagnostics)
     : library_(library), options_(options), diagnostics_(diagnostics) {}
@@ -70,19 +62,32 @@ Value Elaborator::expr_call(Context c, const Expr& e) {
   return call_function_value(f, arguments(c, e), e.span);
 }
 
+/// An output's name, such as `gradient`, may be a library function's too, which is still meant
+/// where it is called.
+bool Elaborator::hides_library_function(const Path& path) const {
+  auto it = library_scope_->names.find(path[0].text);
+  const bool function = path.size() == 1 && it != library_scope_->names.end() &&
+                        it->second.form == Binding::Form::Functions;
+  for (std::size_t o = 0; function && o < vm::kOutputCount; ++o)
+    for (const auto form : {vm::DescriptorForm::Surface, vm::DescriptorForm::Volume})
+      if (vm::output_name(form, static_cast<vm::Output>(o)) == path[0].text) return true;
+  return false;
+}
+
 Value Elaborator::call_named(Context c, const Path& path, std::vector<BoundArgument> args,
                              Span span) {
+  if (c.scope->library && path.size() == 2 && path[0].text == "intrinsic")
+    return call_intrinsic(path[1].text, args);
   Binding* b = find(c, path);
   if (!b) {
     // Named in the language's design, not made yet: said so rather than called unknown.
-    static constexpr std::string_view kLater[] = {"spectral", "gradient", "image"};
-    if (std::find(std::begin(kLater), std::end(kLater), path[0].text) != std::end(kLater))
+    if (path[0].text == "image")
       diagnostics_.add(Diag::NotYet, span, path[0].text);
     else
       unknown_name(c, path, Diag::UnknownFunction);
     return {};
   }
-  if (b->form == Binding::Form::Type) return construct(b->type, args, span);
+  if (b->form == Binding::Form::Type) return construct(type_of(*b), args, span);
   if (b->form == Binding::Form::Value && types_.is_function(b->value.type))
     return call_function_value(b->value, std::move(args), span);
   if (b->form == Binding::Form::Constant) {
@@ -90,33 +95,36 @@ Value Elaborator::call_named(Context c, const Path& path, std::vector<BoundArgum
     if (f.poison()) return {};
     if (types_.is_function(f.type)) return call_function_value(f, std::move(args), span);
   }
-  if (b->form != Binding::Form::Functions) {
+  if (b->form != Binding::Form::Functions && !hides_library_function(path)) {
     if (b->form != Binding::Form::Value || !b->value.poison())
       diagnostics_.add(Diag::NotCallable, span, path.back().text)
           .note(b->span, "defined here")
           .help("multiplication is written with `*`");
     return {};
   }
+  return call_candidates(candidates(c, path, *b), path.back().text, args, span);
+}
+
+/// The functions that `path`, which names `b`, may mean: those of the innermost scope first.
+std::vector<std::vector<Elaborator::Candidate>> Elaborator::candidates(Context c, const Path& path,
+                                                                       const Binding& b) {
   std::vector<std::vector<Candidate>> levels;
-  auto level = [&](const Binding& f) {
-    levels.emplace_back();
+  auto add = [&](const Binding& f) {
     for (FunctionDecl* d : f.functions) levels.back().push_back({d, nullptr});
     for (const vm::Builtin* r : f.rows) levels.back().push_back({nullptr, r});
   };
   if (path.size() > 1) {
-    level(*b);
-  } else {
-    for (Scope* s = c.scope; s; s = s->parent) {
-      auto add = [&](Scope* from) {
-        auto it = from->names.find(path[0].text);
-        if (it != from->names.end() && it->second.form == Binding::Form::Functions)
-          level(it->second);
-      };
-      add(s);
-      for (Scope* i : s->imports) add(i);
-    }
+    levels.emplace_back();
+    add(b);
+    return levels;
   }
-  return call_candidates(levels, path.back().text, args, span);
+  for (Scope* s = c.scope; s; s = s->parent) {
+    levels.emplace_back();
+    for (const Binding* f : bindings_in(s, path[0].text))
+      if (f->form == Binding::Form::Functions) add(*f);
+    if (levels.back().empty()) levels.pop_back();
+  }
+  return levels;
 }
 
 Value Elaborator::call_library(std::string_view name, std::vector<Value> values, Span span) {
@@ -149,7 +157,7 @@ Value Elaborator::call_candidates(const std::vector<std::vector<Candidate>>& lev
   for (const std::vector<Candidate>& level : levels) {
     Match best;
     const Candidate* winner = nullptr;
-    bool tie = false;
+    const Candidate* rival = nullptr;
     for (const Candidate& k : level) {
       Match m = match(k, args);
       if (m.cost < 0) {
@@ -157,14 +165,19 @@ Value Elaborator::call_candidates(const std::vector<std::vector<Candidate>>& lev
         seen.push_back(describe(k));
         continue;
       }
-      tie = winner && m.cost == best.cost;
+      if (winner && m.cost == best.cost) rival = &k;
+      if (winner && m.cost < best.cost) rival = nullptr;
       if (!winner || m.cost < best.cost) {
         best = std::move(m);
         winner = &k;
       }
     }
     if (!winner) continue;
-    if (tie) diagnostics_.add(Diag::Ambiguous, span, name);
+    if (rival) {
+      Diagnostic& d = diagnostics_.add(Diag::Ambiguous, span, name);
+      for (const Candidate* k : {winner, rival})
+        if (k->decl) d.note(k->decl->function().header, "this one fits");
+    }
     return winner->row ? call_builtin(winner->row, best, args, span)
                        : call_script(winner->decl, best, args, span);
   }
@@ -177,32 +190,34 @@ Value Elaborator::call_candidates(const std::vector<std::vector<Candidate>>& lev
 }
 
 /// Gives each formal its argument: by position first, then by name.
-bool Elaborator::bind_formals(const Function& f, const std::vector<BoundArgument>& args, Match& m) {
-  m.argument.assign(f.formals.size(), -1);
+bool Elaborator::bind_formals(const std::vector<Formal>& formals,
+                              const std::vector<BoundArgument>& args, std::vector<int>& argument,
+                              std::string& why) {
+  argument.assign(formals.size(), -1);
   for (std::size_t i = 0; i < args.size(); ++i) {
     std::size_t k = i;
     if (args[i].name) {
       k = 0;
-      while (k < f.formals.size() && f.formals[k].name.text != args[i].name->text) ++k;
-      if (k == f.formals.size()) {
-        m.why = fmt::format("it has no argument `{}`", args[i].name->text);
+      while (k < formals.size() && formals[k].name.text != args[i].name->text) ++k;
+      if (k == formals.size()) {
+        why = fmt::format("it has no argument `{}`", args[i].name->text);
         return false;
       }
     }
-    if (k >= f.formals.size()) {
-      m.why = fmt::format("it takes {} argument{}, found {}", f.formals.size(),
-                          f.formals.size() == 1 ? "" : "s", args.size());
+    if (k >= formals.size()) {
+      why = fmt::format("it takes {} argument{}, found {}", formals.size(),
+                        formals.size() == 1 ? "" : "s", args.size());
       return false;
     }
-    if (m.argument[k] >= 0) {
-      m.why = fmt::format("its argument `{}` is given twice", f.formals[k].name.text);
+    if (argument[k] >= 0) {
+      why = fmt::format("its argument `{}` is given twice", formals[k].name.text);
       return false;
     }
-    m.argument[k] = static_cast<int>(i);
+    argument[k] = static_cast<int>(i);
   }
-  for (std::size_t k = 0; k < f.formals.size(); ++k)
-    if (m.argument[k] < 0 && !f.formals[k].default_value) {
-      m.why = fmt::format("its argument `{}` is missing", f.formals[k].name.text);
+  for (std::size_t k = 0; k < formals.size(); ++k)
+    if (argument[k] < 0 && !formals[k].default_value) {
+      why = fmt::format("its argument `{}` is missing", formals[k].name.text);
       return false;
     }
   return true;
@@ -214,7 +229,7 @@ Elaborator::Match Elaborator::match(const Candidate& k, const std::vector<BoundA
   const Signature* s = k.row ? &signature(k.row) : nullptr;
   const Function& f = s ? s->function() : k.decl->function();
   const Context c = s ? Context{&s->graph, library_scope_} : Context{k.decl->graph, k.decl->scope};
-  if (!bind_formals(f, args, m)) return m;
+  if (!bind_formals(f.formals, args, m.argument, m.why)) return m;
   for (const Formal& formal : f.formals) collect_generics(c, formal.type, m.generics);
   int cost = 0;
   for (std::size_t i = 0; i < f.formals.size(); ++i) {
@@ -299,6 +314,7 @@ Value Elaborator::construct(TypeId type, std::vector<BoundArgument>& args, Span 
   const Type t = types_[type];
   for (const BoundArgument& a : args)
     if (a.value.poison()) return {};
+  if (type == TypeTable::kPoison) return {};
   if (t.form != Type::Form::Struct) {
     diagnostics_.add(Diag::NotCallable, span, types_.spell(type));
     return {};
@@ -341,9 +357,15 @@ Value Elaborator::call_function_value(const Value& f, std::vector<BoundArgument>
     for (std::size_t i = 0; i < args.size(); ++i) {
       args[i].value = convert(args[i].value, type.parts[i], args[i].span);
       if (args[i].value.poison()) return {};
+      if (!args[i].name) continue;
+      diagnostics_.add(Diag::NoOverload, span, "function", spell(args[i].value))
+          .labelled(fmt::format("it has no argument `{}`", args[i].name->text))
+          .help("the formals of a function type have no names: give its arguments by position");
+      return {};
     }
   }
   const FunctionValue& fn = *f.function;
+  if (fn.opaque) return stated ? unknown_value(type.parts.back()) : Value{};
   Value v;
   if (fn.op) {
     if (args.size() == 1 && (*fn.op == Operator::Sub || *fn.op == Operator::Neg)) {
@@ -374,13 +396,24 @@ Value Elaborator::call_lambda(const FunctionValue& f, std::vector<BoundArgument>
     diagnostics_.add(Diag::TooDeep, span, vm::limits::kInlineDepth);
     return {};
   }
+  std::vector<int> order;
+  std::string why;
+  if (!bind_formals(e.formals, args, order, why)) {
+    std::vector<TypeId> types;
+    for (const BoundArgument& a : args) types.push_back(a.value.type);
+    diagnostics_.add(Diag::NoOverload, span, "function", types_.spell(types))
+        .labelled(why)
+        .note(e.span, "defined here");
+    return {};
+  }
   Scope* scope = new_scope(f.scope);
   for (std::size_t i = 0; i < args.size(); ++i) {
+    const BoundArgument& given = args[static_cast<std::size_t>(order[i])];
     Binding b;
-    b.value = args[i].value;
+    b.value = given.value;
     if (e.formals[i].type)
-      b.value = convert(b.value, resolve_type({f.graph, scope}, e.formals[i].type, nullptr),
-                        args[i].span);
+      b.value =
+          convert(b.value, resolve_type({f.graph, scope}, e.formals[i].type, nullptr), given.span);
     declare(scope, e.formals[i].name, std::move(b));
   }
   frames_.push_back({nullptr, dynamic_, false, inlined_});
@@ -406,55 +439,139 @@ TypeId Elaborator::formal_type(Context c, TypeHandle h, TypeId actual, const Gen
   return resolve_type(c, h, &g);
 }
 
-/// Generic results of function arguments are found by trying the function on its argument types.
-void Elaborator::infer_results(Context c, const Function& f, const std::vector<Value>& formals,
-                               Generics& g) {
-  for (std::size_t i = 0; i < f.formals.size(); ++i) {
-    const TypeExpr& t = (*c.graph)[f.formals[i].type];
-    if (t.form != TypeExpr::Form::Function || formals[i].type != TypeTable::kClosure) continue;
-    const TypeExpr& result = (*c.graph)[t.element];
-    const bool named =
-        result.form == TypeExpr::Form::Generic || result.form == TypeExpr::Form::Named;
-    if (!named || result.path.size() != 1 || g.types.count(result.path[0].text)) continue;
-    if (result.form == TypeExpr::Form::Named && find(c.scope, result.path[0].text)) continue;
-    std::vector<BoundArgument> args;
-    for (TypeHandle p : t.formals) {
-      const TypeId type = resolve_type(c, p, &g);
-      std::vector<SlotType> slots;
-      slot_types(type, slots);
-      std::vector<Ref> refs;
-      // Values nobody knows: the type alone must decide.
-      for (SlotType s : slots) refs.push_back(node(Op::LoadLocal, {}, 0, 0, {s}));
-      std::size_t next = 0;
-      args.push_back({std::nullopt, unflatten(type, refs, next), {}});
-    }
-    g.types[result.path[0].text] =
-        call_function_value(formals[i], std::move(args), f.formals[i].name.span).type;
+/// All generics and dimension variables that the type names are bound.
+bool Elaborator::ready(Context c, TypeHandle h, const Generics& g) {
+  const TypeExpr& t = (*c.graph)[h];
+  const bool variable = t.path.size() == 1 &&
+                        (t.form == TypeExpr::Form::Generic || g.names.count(t.path[0].text) > 0);
+  if (variable) return g.types.count(t.path[0].text) > 0;
+  for (const TypeExpr::Dim& d : t.dims) {
+    const bool named = !d.path.empty() && !g.dims.count(d.path[0].text);
+    if (d.form == TypeExpr::Dim::Form::Open || (named && !find(c, d.path))) return false;
   }
+  for (TypeHandle f : t.formals)
+    if (!ready(c, f, g)) return false;
+  const bool inner = t.form == TypeExpr::Form::Array || t.form == TypeExpr::Form::Function;
+  return !inner || ready(c, t.element, g);
+}
+
+/// The type of what `f` gives for arguments of those types: from its text where that says it, else
+/// by trying it on values nobody knows.
+TypeId Elaborator::result_of(const Value& f, const std::vector<TypeId>& types, Span span) {
+  std::vector<BoundArgument> args;
+  for (TypeId t : types) {
+    Value v;
+    v.type = t;
+    args.push_back({std::nullopt, std::move(v), span});
+  }
+  const TypeId stated = peek_call(f, args);
+  if (stated != TypeTable::kPoison) return stated;
+  for (BoundArgument& a : args) a.value = unknown_value(a.value.type);
+  const bool outer = unknown_arguments_;
+  unknown_arguments_ = true;
+  const TypeId type = call_function_value(f, std::move(args), span).type;
+  unknown_arguments_ = outer;
+  return type;
+}
+
+/// Generics that function arguments decide: their results join what the other arguments say, over
+/// and over, as in `fold(#+, 0, reals)`, whose integer 0 becomes a real.
+bool Elaborator::infer_results(Context c, const Function& f, const std::vector<Value>& formals,
+                               const std::vector<Span>& spans, Generics& g) {
+  constexpr int kRounds = 4;  // longer than any chain of widening
+  for (int round = 0; round < kRounds; ++round) {
+    const std::map<std::string, TypeId> before = g.types;
+    for (std::size_t i = 0; i < f.formals.size(); ++i) {
+      const TypeExpr& t = (*c.graph)[f.formals[i].type];
+      if (t.form != TypeExpr::Form::Function || formals[i].type != TypeTable::kClosure) continue;
+      if (!mentions_generic(c, t.element, g)) continue;
+      std::vector<TypeId> types;
+      bool known_types = true;
+      for (TypeHandle p : t.formals) {
+        known_types = known_types && ready(c, p, g);
+        if (known_types) types.push_back(resolve_type(c, p, &g));
+      }
+      if (!known_types) continue;
+      const std::size_t errors = diagnostics_.error_count();
+      const TypeId type = result_of(formals[i], types, spans[i]);
+      if (diagnostics_.error_count() > errors ||
+          (type == TypeTable::kPoison && diagnostics_.has_errors()))
+        return false;  // told, now or before
+      int cost = 0;
+      if (type != TypeTable::kPoison) unify(c, t.element, type, g, cost);
+    }
+    if (g.types == before) break;
+  }
+  return true;
+}
+
+bool Elaborator::mentions_generic(Context c, TypeHandle h, const Generics& g) {
+  const TypeExpr& t = (*c.graph)[h];
+  if (t.path.size() == 1 && g.names.count(t.path[0].text)) return true;
+  return t.form == TypeExpr::Form::Array && mentions_generic(c, t.element, g);
+}
+
+/// The arguments of a call and, for formals without one, their defaults: these see the formals
+/// before them.
+std::vector<Value> Elaborator::with_defaults(FunctionDecl* d, const Match& m,
+                                             std::vector<BoundArgument>& args) {
+  const Function& f = d->function();
+  const Context outside{d->graph, d->scope};
+  const bool defaults = std::find(m.argument.begin(), m.argument.end(), -1) != m.argument.end();
+  const Context inside{d->graph, defaults ? new_scope(d->scope, d->library) : nullptr};
+  std::vector<Value> formals;
+  for (std::size_t i = 0; i < f.formals.size(); ++i) {
+    const int k = m.argument[i];
+    formals.push_back(k >= 0 ? std::move(args[static_cast<std::size_t>(k)].value)
+                             : expr(inside, f.formals[i].default_value));
+    if (formals.back().poison()) return {};
+    if (!defaults) continue;
+    Binding b;
+    b.value = formals.back();
+    if (ready(outside, f.formals[i].type, m.generics))
+      b.value = convert(b.value, resolve_type(outside, f.formals[i].type, &m.generics),
+                        k >= 0 ? args[static_cast<std::size_t>(k)].span
+                               : (*d->graph)[f.formals[i].default_value].span);
+    declare(inside.scope, f.formals[i].name, std::move(b));
+  }
+  return formals;
 }
 
 Value Elaborator::call_script(FunctionDecl* d, const Match& m, std::vector<BoundArgument>& args,
                               Span span) {
   const Function& f = d->function();
   const Context c{d->graph, d->scope};
+  const Span outer = user_span_;
+  const bool in_library = !frames_.empty() && frames_.back().decl && frames_.back().decl->library;
+  if (!in_library) user_span_ = span;
+  std::vector<Span> spans;
+  for (int k : m.argument)
+    spans.push_back(k < 0 || in_library ? user_span_ : args[static_cast<std::size_t>(k)].span);
   Generics g = m.generics;
-  std::vector<Value> formals;
-  for (std::size_t i = 0; i < f.formals.size(); ++i) {
-    const int k = m.argument[i];
-    formals.push_back(k >= 0 ? std::move(args[static_cast<std::size_t>(k)].value)
-                             : expr(c, f.formals[i].default_value));
-    if (formals.back().poison()) return {};
-  }
-  infer_results(c, f, formals, g);
+  std::vector<Value> formals = with_defaults(d, m, args);
+  if (formals.size() != f.formals.size() || !infer_results(c, f, formals, spans, g)) return {};
+  for (const std::string& name : g.names)
+    if (!g.types.count(name)) {
+      if (!unknown_arguments_)
+        diagnostics_.add(Diag::GenericHere, user_span_, name)
+            .help("nothing says what the function gives: give it a stated type");
+      return {};
+    }
+  Generics sizes = g;  // the size of a result may be an integer formal that is known at link
   for (std::size_t i = 0; i < f.formals.size(); ++i) {
     const TypeId type = formal_type(c, f.formals[i].type, formals[i].type, g);
     formals[i] = convert(formals[i], type, span, (*d->graph)[f.formals[i].type].span);
     if (formals[i].poison()) return {};
+    if (formals[i].type != TypeTable::kInteger) continue;
+    const auto n = known_integer(formals[i]);
+    sizes.dims.emplace(f.formals[i].name.text, n ? static_cast<int>(*n) : kUnknownSize);
   }
-  const TypeId result = resolve_type(c, f.result, &g);
+  const TypeId result = resolve_type(c, f.result, &sizes);
   if (result == TypeTable::kPoison) return {};
   line_ = line_of(span);
-  return invoke(d, formals, g, result, span);
+  const Value v = invoke(d, formals, g, result, span);
+  user_span_ = outer;
+  return v;
 }
 
 }  // namespace mms::lang

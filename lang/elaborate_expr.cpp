@@ -59,7 +59,7 @@ Value Elaborator::expr(Context c, ExprHandle h) {
     case Expr::Form::FunctionValue:
     case Expr::Form::Lambda: {
       auto f = std::make_shared<FunctionValue>();
-      *f = {c.graph, h, c.scope, e.path, std::nullopt, e.span};
+      *f = {c.graph, h, c.scope, e.path, std::nullopt, e.span, false};
       if (e.form == Expr::Form::FunctionValue && e.path.empty()) f->op = e.op;
       if (!e.path.empty()) {
         Binding* b = find(c, e.path);
@@ -132,19 +132,38 @@ Value Elaborator::expr(Context c, ExprHandle h) {
 Value Elaborator::evaluate_constant(Binding& b) {
   auto cached = b.cache.find(function_);
   if (cached != b.cache.end()) return cached->second;
+  if (b.circular) return {};
   if (b.busy) {
-    diagnostics_.add(Diag::DefinedByItself, b.span);
+    report_circle(b);
     return {};
   }
-  b.busy = true;
+  struct Evaluating {  // left by an exception too: a recursion that is given to the machine
+    std::vector<Binding*>& open;
+    Evaluating(std::vector<Binding*>& o, Binding& k) : open(o) {
+      k.busy = true;
+      open.push_back(&k);
+    }
+    ~Evaluating() {
+      open.back()->busy = false;
+      open.pop_back();
+    }
+  } evaluating(evaluating_, b);
   Value v = expr({b.graph, b.scope}, b.expr);
   if (b.stated) {
-    const TypeId type = resolve_type({b.graph, b.scope}, b.stated, nullptr);
-    v = convert(v, type, (*b.graph)[b.expr].span, (*b.graph)[b.stated].span);
+    const TypeId type = resolve_type({b.stated_in, b.scope}, b.stated, nullptr);
+    v = convert(v, type, (*b.graph)[b.expr].span, (*b.stated_in)[b.stated].span);
   }
-  if (b.type != TypeTable::kPoison) v = convert(v, b.type, (*b.graph)[b.expr].span);
-  b.busy = false;
   return b.cache[function_] = v;
+}
+
+/// One message for all the constants that ask for each other.
+void Elaborator::report_circle(Binding& b) {
+  Diagnostic& d = diagnostics_.add(Diag::DefinedByItself, b.span);
+  auto first = std::find(evaluating_.begin(), evaluating_.end(), &b);
+  for (auto k = first; k != evaluating_.end(); ++k) {
+    (*k)->circular = true;
+    if (k != first) d.note((*k)->span, "by way of this");
+  }
 }
 
 Value Elaborator::expr_name(Context c, const Expr& e) {
@@ -152,12 +171,12 @@ Value Elaborator::expr_name(Context c, const Expr& e) {
   if (e.path.size() >= 2) {
     Path owner(e.path.begin(), e.path.end() - 1);
     Binding* t = find(c, owner);
-    if (t && t->form == Binding::Form::Type && types_[t->type].form == Type::Form::Enum) {
-      const std::vector<std::string>& members = types_[t->type].members;
+    if (t && t->form == Binding::Form::Type && types_[type_of(*t)].form == Type::Form::Enum) {
+      const std::vector<std::string>& members = types_[type_of(*t)].members;
       const auto it = std::find(members.begin(), members.end(), e.path.back().text);
       if (it == members.end()) {
-        Diagnostic& d = diagnostics_.add(Diag::NoField, e.path.back().span, types_[t->type].name,
-                                         e.path.back().text);
+        Diagnostic& d = diagnostics_.add(Diag::NoField, e.path.back().span,
+                                         types_[type_of(*t)].name, e.path.back().text);
         const std::string near = nearest(e.path.back().text, members);
         if (!near.empty()) d.help(fmt::format("did you mean `{}`?", near));
         return {};
@@ -293,6 +312,16 @@ Value Elaborator::expr_chain(Context c, const Expr& e) {
   return all;
 }
 
+/// An arm's value as the type it shares with the arms that are out.
+Value Elaborator::join_arms(Context c, const Expr& e, ExprHandle value, const Value& v,
+                            TypeId other) {
+  const TypeId type = types_.join(v.type, other);
+  if (type != TypeTable::kPoison) return widen(v, type);
+  diagnostics_.add(Diag::ArmsDiffer, e.span, spell(v), types_.spell(other))
+      .note((*c.graph)[value].span, "an arm is here");
+  return {};
+}
+
 Value Elaborator::expr_select(Context c, const Expr& e, std::size_t arm) {
   if (2 * arm + 1 >= e.args.size()) return expr(c, e.args[2 * arm]);
   const ExprHandle value = e.args[2 * arm], condition = e.args[2 * arm + 1];
@@ -302,8 +331,16 @@ Value Elaborator::expr_select(Context c, const Expr& e, std::size_t arm) {
         .labelled("a condition is `logic`");
     return {};
   }
-  if (const auto decided = cond.poison() ? std::nullopt : known_logic(cond))
-    return *decided ? expr(c, value) : expr_select(c, e, arm + 1);
+  if (const auto decided = cond.poison() ? std::nullopt : known_logic(cond)) {
+    const Value v = *decided ? expr(c, value) : expr_select(c, e, arm + 1);
+    std::vector<ExprHandle> out;  // the arms that are out: the type is that of all of them
+    for (std::size_t k = arm; k < e.args.size() / 2 + 1; ++k)
+      if (*decided ? k > arm : k == arm) out.push_back(e.args[2 * k]);
+    const TypeId other = peek_joined(c, out);
+    return v.poison() || other == TypeTable::kPoison || other == v.type
+               ? v
+               : join_arms(c, e, value, v, other);
+  }
   ++dynamic_;
   Value a = expr(c, value);
   Value b = expr_select(c, e, arm + 1);

@@ -10,8 +10,12 @@
 namespace mms::lang {
 
 Scope* Elaborator::new_scope(Scope* parent, bool library) {
-  scopes_.push_back(
-      {parent, library || (parent && parent->library && parent != library_scope_), {}, {}});
+  scopes_.push_back({parent,
+                     library || (parent && parent->library && parent != library_scope_),
+                     false,
+                     {},
+                     {},
+                     {}});
   return &scopes_.back();
 }
 
@@ -19,8 +23,13 @@ Binding* Elaborator::declare(Scope* scope, const Name& name, Binding binding) {
   binding.span = name.span;
   binding.library = scope->library;
   auto it = scope->names.find(name.text);
-  if (it != scope->names.end()) {
-    Binding& old = it->second;
+  Binding* taken = it != scope->names.end() ? &it->second : nullptr;
+  if (!taken && !scope->imports.empty())
+    for (Binding* b : bindings_in(scope, name.text))
+      if (b->form != Binding::Form::Functions || binding.form != Binding::Form::Functions)
+        taken = b;
+  if (taken) {
+    Binding& old = *taken;
     if (old.form == Binding::Form::Functions && binding.form == Binding::Form::Functions) {
       old.functions.insert(old.functions.end(), binding.functions.begin(), binding.functions.end());
       return &old;
@@ -53,29 +62,47 @@ void Elaborator::declare_function(Context c, FunctionHandle h) {
 void Elaborator::declare_type(Context c, const TypeDefinition& t) {
   Binding b;
   b.form = Binding::Form::Type;
-  switch (t.form) {
-    case TypeDefinition::Form::Alias:
-      b.type = resolve_type(c, t.type, nullptr);
-      break;
-    case TypeDefinition::Form::Enum: {
-      Type e{Type::Form::Enum, 0, {}, t.name.text, {}};
-      for (const Name& n : t.enumerators) e.members.push_back(n.text);
-      b.type = types_.intern(std::move(e));
-      break;
-    }
-    case TypeDefinition::Form::Struct: {
-      Type s{Type::Form::Struct, 0, {}, t.name.text, {}};
-      for (const TypeDefinition::Field& f : t.fields) {
-        if (std::find(s.members.begin(), s.members.end(), f.name.text) != s.members.end())
-          diagnostics_.add(Diag::Redefined, f.name.span, f.name.text);
-        s.parts.push_back(resolve_type(c, f.type, nullptr));
-        s.members.push_back(f.name.text);
-      }
-      b.type = types_.intern(std::move(s));
-      break;
-    }
-  }
+  b.definition = &t;
+  b.graph = c.graph;
+  b.scope = c.scope;
   declare(c.scope, t.name, std::move(b));
+}
+
+/// The type a name stands for; definitions may come in any order, but not in a circle.
+TypeId Elaborator::type_of(Binding& b) {
+  if (!b.definition) return b.type;
+  if (b.busy) {
+    diagnostics_.add(Diag::DefinedByItself, b.span)
+        .help("a value has a size that is known at link: a type cannot contain itself");
+    return TypeTable::kPoison;
+  }
+  b.busy = true;
+  const TypeId type = define({b.graph, b.scope}, *b.definition);
+  b.busy = false;
+  b.definition = nullptr;
+  return b.type = type;
+}
+
+TypeId Elaborator::define(Context c, const TypeDefinition& t) {
+  if (t.form == TypeDefinition::Form::Alias) return resolve_type(c, t.type, nullptr);
+  if (t.form == TypeDefinition::Form::Enum) {
+    Type e{Type::Form::Enum, 0, {}, t.name.text, {}};
+    for (const Name& n : t.enumerators) {
+      if (std::find(e.members.begin(), e.members.end(), n.text) != e.members.end())
+        diagnostics_.add(Diag::Redefined, n.span, n.text);
+      e.members.push_back(n.text);
+    }
+    return types_.intern(std::move(e));
+  }
+  Type s{Type::Form::Struct, 0, {}, t.name.text, {}};
+  for (const TypeDefinition::Field& f : t.fields) {
+    if (std::find(s.members.begin(), s.members.end(), f.name.text) != s.members.end())
+      diagnostics_.add(Diag::Redefined, f.name.span, f.name.text);
+    s.parts.push_back(resolve_type(c, f.type, nullptr));
+    s.members.push_back(f.name.text);
+    if (s.parts.back() == TypeTable::kPoison) return TypeTable::kPoison;
+  }
+  return types_.intern(std::move(s));
 }
 
 void Elaborator::declare_constant(Context c, const Constant& k) {
@@ -84,48 +111,106 @@ void Elaborator::declare_constant(Context c, const Constant& k) {
   b.graph = c.graph;
   b.scope = c.scope;
   b.stated = k.type;
+  b.stated_in = c.graph;
   b.expr = k.value;
   declare(c.scope, k.name, std::move(b));
+}
+
+std::vector<Binding*> Elaborator::bindings_in(Scope* scope, std::string_view name) {
+  std::vector<Binding*> found;
+  auto it = scope->names.find(name);
+  if (it != scope->names.end()) found.push_back(&it->second);
+  if (scope->imports.empty()) return found;
+  std::set<Scope*> seen{scope};
+  std::vector<Scope*> pending(scope->imports.rbegin(), scope->imports.rend());
+  while (!pending.empty()) {
+    Scope* s = pending.back();
+    pending.pop_back();
+    if (!seen.insert(s).second) continue;
+    it = s->names.find(name);
+    if (it != s->names.end()) found.push_back(&it->second);
+    pending.insert(pending.end(), s->imports.rbegin(), s->imports.rend());
+  }
+  return found;
 }
 
 Binding* Elaborator::find(Scope* scope, std::string_view name) {
   for (Scope* s = scope; s; s = s->parent) {
     auto it = s->names.find(name);
     if (it != s->names.end()) return &it->second;
-    for (Scope* i : s->imports)
-      if (it = i->names.find(name); it != i->names.end()) return &it->second;
+    if (s->imports.empty()) continue;
+    const std::vector<Binding*> found = bindings_in(s, name);
+    if (!found.empty()) return found[0];
   }
   return nullptr;
 }
 
+/// Two imports may both have the name: then it is no one's.
+void Elaborator::check_ambiguity(Scope* scope, const Name& name) {
+  for (Scope* s = scope; s; s = s->parent) {
+    if (s->names.count(name.text)) return;
+    if (s->imports.empty()) continue;
+    const std::vector<Binding*> found = bindings_in(s, name.text);
+    const bool functions = std::all_of(found.begin(), found.end(), [](const Binding* b) {
+      return b->form == Binding::Form::Functions;
+    });
+    if (found.size() > 1 && !functions)
+      diagnostics_.add(Diag::AmbiguousImport, name.span, name.text)
+          .note(found[0]->span, "one is here")
+          .note(found[1]->span, "another is here")
+          .help(fmt::format("import one file with a name: `import \"...\" as a;`, then `a::{}`",
+                            name.text));
+    if (!found.empty()) return;
+  }
+}
+
 Binding* Elaborator::find(Context c, const Path& path) {
   Binding* b = find(c.scope, path[0].text);
+  if (b && !b->library) check_ambiguity(c.scope, path[0]);
   for (std::size_t i = 1; b && i < path.size(); ++i) {
     if (b->form != Binding::Form::Namespace) return nullptr;
-    auto it = b->scope->names.find(path[i].text);
-    b = it == b->scope->names.end() ? nullptr : &it->second;
+    const std::vector<Binding*> found = bindings_in(b->scope, path[i].text);
+    b = found.empty() ? nullptr : found[0];
   }
   return b;
 }
 
 std::vector<std::string> Elaborator::visible_names(Scope* scope) {
   std::vector<std::string> names;
-  for (Scope* s = scope; s; s = s->parent)
+  auto add = [&](const Scope* s) {
     for (const auto& [name, binding] : s->names) names.push_back(name);
+  };
+  for (Scope* s = scope; s; s = s->parent) {
+    add(s);
+    for (const Scope* i : s->imports) add(i);
+  }
   return names;
 }
 
-void Elaborator::unknown_name(Context c, const Path& path, Diag id) {
+void Elaborator::unknown_name(Context c, const Path& path, Diag id,
+                              const std::vector<std::string>& inside) {
   std::string spelled = path[0].text;
   for (std::size_t i = 1; i < path.size(); ++i) spelled += "::" + path[i].text;
   Diagnostic& d = diagnostics_.add(id, join(path.front().span, path.back().span), spelled);
-  const std::string near = nearest(path.back().text, visible_names(c.scope));
+  std::vector<std::string> names = visible_names(c.scope);
+  names.insert(names.begin(), inside.begin(), inside.end());
+  const std::string near = nearest(path.back().text, names);
   if (!near.empty()) d.help(fmt::format("did you mean `{}`?", near));
   const bool variable =
       std::any_of(vm::kVariables.begin(), vm::kVariables.end(),
                   [&](const vm::VariableInfo& v) { return v.name == path.back().text; });
   if (variable)
     d.help(fmt::format("what the renderer knows of the hit is written `${}`", path.back().text));
+}
+
+/// A size that a formal brought: -1, and said so, where it is no size.
+int Elaborator::known_size(int size) {
+  if (size >= 1 && size <= vm::limits::kAggregate) return size;
+  if (size != kUnknownSize)
+    diagnostics_.add(Diag::ArraySize, user_span_, size, vm::limits::kAggregate);
+  else if (!unknown_arguments_)
+    diagnostics_.add(Diag::NeedsConstant, user_span_, "the size of an array");
+  return -1;
 }
 
 int Elaborator::resolve_dim(Context c, const TypeExpr::Dim& d, const Generics* generics) {
@@ -138,7 +223,7 @@ int Elaborator::resolve_dim(Context c, const TypeExpr::Dim& d, const Generics* g
   if (d.form != Form::Integer) {
     if (generics && d.path.size() == 1) {
       auto it = generics->dims.find(d.path[0].text);
-      if (it != generics->dims.end()) return it->second;
+      if (it != generics->dims.end()) return known_size(it->second);
     }
     Binding* b = find(c, d.path);
     if (!b) {
@@ -185,7 +270,7 @@ TypeId Elaborator::resolve_type(Context c, TypeHandle h, const Generics* generic
         diagnostics_.add(Diag::NotAType, t.span, t.path.back().text).note(b->span, "defined here");
         return TypeTable::kPoison;
       }
-      return b->type;
+      return type_of(*b);
     }
     case TypeExpr::Form::Array: {
       TypeId type = resolve_type(c, t.element, generics);

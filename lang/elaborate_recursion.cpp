@@ -117,6 +117,7 @@ void Elaborator::body(Context c, const Body& b) {
         break;
       case Item::Form::Type:
         declare_type(c, b.types[item.index]);
+        if (Binding* t = find(c.scope, b.types[item.index].name.text)) type_of(*t);
         break;
       case Item::Form::Function:
         declare_function(c, b.functions[item.index]);
@@ -215,6 +216,7 @@ Value Elaborator::call_instance(FunctionDecl* d, const std::vector<Value>& forma
       for (Ref& r : refs) r = localise(r);
       module.functions[function_].results = std::move(refs);
     }
+    instance.complete = true;
     frames_.resize(depth);
     function_ = caller;
     dynamic_ = dynamic;

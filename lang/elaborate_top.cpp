@@ -111,17 +111,21 @@ void Elaborator::import(const Graph& from, const Import& i, Scope* scope) {
   for (const fs::path& place : places) {
     const std::string key = fs::weakly_canonical(place).string();
     auto known_file = imported_.find(key);
-    if (known_file != imported_.end()) {
+    if (closes_circle(key, i)) {  // its names are there all the same: one message is enough
       if (!i.as && known_file->second != scope) scope->imports.push_back(known_file->second);
       return name_it(known_file->second);
     }
-    std::optional<std::string> text = read_file(place);
-    if (!text) continue;
-    dependencies.push_back(place.string());
-    graphs_.push_back(parse(make_source(place.string(), std::move(*text)), diagnostics_));
-    Scope* space = i.as ? new_scope(library_scope_) : scope;
-    imported_[key] = space;
-    add_graph(graphs_.back(), space);
+    Scope* space = known_file != imported_.end() ? known_file->second : nullptr;
+    if (!space) {
+      std::optional<std::string> text = read_file(place);
+      if (!text) continue;
+      dependencies.push_back(place.string());
+      graphs_.push_back(parse(make_source(place.string(), std::move(*text)), diagnostics_));
+      space = new_scope(library_scope_);
+      imported_[key] = space;
+      add_graph(graphs_.back(), space);
+    }
+    if (!i.as && space != scope) scope->imports.push_back(space);
     return name_it(space);
   }
   auto library_module = modules_.find(i.file);
@@ -134,11 +138,33 @@ void Elaborator::import(const Graph& from, const Import& i, Scope* scope) {
                       : fmt::format("did you mean the library's `{}`?", near));
 }
 
+std::string Elaborator::key_of(const Graph& graph) const {
+  return std::filesystem::weakly_canonical(graph.source->name).string();
+}
+
+/// Whether the file is one of those that led here; says so.
+bool Elaborator::closes_circle(const std::string& key, const Import& i) {
+  auto first = std::find_if(open_files_.begin(), open_files_.end(),
+                            [&](const OpenFile& f) { return f.key == key; });
+  if (first == open_files_.end()) return false;
+  std::string chain;
+  for (auto f = first; f != open_files_.end(); ++f) chain += f->name + " -> ";
+  diagnostics_.add(Diag::ImportCycle, i.span, chain + first->name)
+      .help("move what both files need into a third, which both import");
+  return true;
+}
+
 void Elaborator::add_graph(const Graph& graph, Scope* scope) {
+  open_files_.push_back(
+      {key_of(graph), std::filesystem::path(graph.source->name).filename().string()});
+  scope->file = true;
   for (const Import& i : graph.imports) import(graph, i, scope);
   add_params(graph, scope);
   declare_items(graph, scope);
+  for (const Descriptor& d : graph.descriptors)
+    scope->descriptors.push_back({d.name.text, &graph, &d, scope});
   add_aliases(graph, scope);
+  open_files_.pop_back();
 }
 
 /// A param is a constant whose value the command line may replace.
@@ -149,8 +175,8 @@ void Elaborator::add_params(const Graph& graph, Scope* scope) {
     b.graph = &graph;
     b.scope = scope;
     b.expr = p.value;
-    b.type =
-        resolve_type({&graph, scope}, p.type, nullptr);  // a replaced value is in another graph
+    b.stated = p.type;
+    b.stated_in = &graph;  // a replaced value is in another one
     for (const auto& [name, text] : options_.params) {
       if (name != p.name.text) continue;
       graphs_.push_back(parse_expression(make_source("--param " + name, text), diagnostics_));
@@ -159,7 +185,7 @@ void Elaborator::add_params(const Graph& graph, Scope* scope) {
       b.expr = {static_cast<std::uint32_t>(graphs_.back().exprs.size() - 1)};
     }
     declare(scope, p.name, std::move(b));
-    describe_param(graph, p, scope);
+    declared_params_.push_back({&graph, &p, scope});
   }
 }
 
@@ -168,16 +194,20 @@ void Elaborator::describe_param(const Graph& graph, const Param& p, Scope* scope
   Binding* b = find(scope, p.name.text);
   const Span value_span = (*b->graph)[b->expr].span;
   const Value v = evaluate_constant(*b);
-  ParamInfo info{p.name.text, types_.spell(b->type), p.doc, {}, {}, {}, {}, {}};
+  ParamInfo info{p.name.text, types_.spell(v.type), p.doc, {}, {}, {}, {}, {}};
   std::vector<Ref> refs;
   flatten(v, refs);
   for (Ref r : refs) {
     const vm::Constant* k = known(r);
+    if (!k && slot_type(r) != SlotType::Spectrum)
+      diagnostics_.add(Diag::NeedsConstant, value_span, fmt::format("the param `{}`", p.name.text));
     if (k) info.value.push_back(k->type == SlotType::Real ? k->f64 : k->integer);
   }
   auto number = [&](ExprHandle h) -> std::optional<double> {
     const Value n = convert(expr(c, h), TypeTable::kReal, graph[h].span);
     const vm::Constant* k = n.poison() ? nullptr : known(n.refs[0]);
+    if (!n.poison() && !k)
+      diagnostics_.add(Diag::NeedsConstant, graph[h].span, "the range of a param");
     return k ? std::optional<double>(k->f64) : std::nullopt;
   };
   if (p.lower && p.upper) {
@@ -203,65 +233,51 @@ void Elaborator::describe_param(const Graph& graph, const Param& p, Scope* scope
   params.push_back(std::move(info));
 }
 
+/// The surfaces and volumes that go by that name there.
+std::vector<NamedDescriptor> Elaborator::find_descriptors(Context c, const Path& path) {
+  Scope* scope = c.scope;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const std::vector<Binding*> found = bindings_in(scope, path[i].text);
+    if (found.empty() || found[0]->form != Binding::Form::Namespace) return {};
+    scope = found[0]->scope;
+  }
+  std::vector<NamedDescriptor> all;
+  std::vector<Scope*> places{scope};
+  places.insert(places.end(), scope->imports.begin(), scope->imports.end());
+  for (const Scope* s : places)
+    for (const NamedDescriptor& d : s->descriptors)
+      if (d.name == path.back().text) all.push_back(d);
+  return all;
+}
+
 void Elaborator::add_aliases(const Graph& graph, Scope* scope) {
   for (const Alias& a : graph.aliases) {
-    Binding* b = find({&graph, scope}, a.inside);
-    if (!b) {
-      const bool is_descriptor =
-          std::any_of(graph.descriptors.begin(), graph.descriptors.end(),
-                      [&](const Descriptor& d) { return d.name.text == a.inside[0].text; });
-      if (!is_descriptor) unknown_name({&graph, scope}, a.inside, Diag::UnknownName);
-      continue;
+    std::vector<NamedDescriptor> same = find_descriptors({&graph, scope}, a.inside);
+    for (NamedDescriptor& d : same) {
+      d.name = a.outside.text;
+      scope->descriptors.push_back(d);
     }
-    Binding copy = *b;
-    declare(scope, a.outside, std::move(copy));
+    if (Binding* b = find({&graph, scope}, a.inside)) {
+      Binding copy = *b;
+      declare(scope, a.outside, std::move(copy));
+    } else if (same.empty()) {
+      unknown_name({&graph, scope}, a.inside, Diag::UnknownName);
+    }
   }
 }
 
-/// Checks a function that nothing may have called yet, with arguments that nobody knows.
-void Elaborator::check_function(FunctionDecl* d) {
-  const Function& f = d->function();
-  const Context c{d->graph, d->scope};
-  std::vector<TypeId> types;
-  for (const Formal& formal : f.formals) {
-    const std::vector<TypeExpr>& all = d->graph->types;
-    // Generic functions and open arrays are checked where they are called.
-    std::vector<TypeHandle> pending{formal.type};
-    while (!pending.empty()) {
-      const TypeExpr& t = all[pending.back().index];
-      pending.pop_back();
-      if (t.form == TypeExpr::Form::Generic || t.form == TypeExpr::Form::Function) return;
-      if (t.form == TypeExpr::Form::Named && !find(c, t.path)) {
-        const bool earlier = std::any_of(all.begin(), all.end(), [&](const TypeExpr& g) {
-          return g.form == TypeExpr::Form::Generic && g.path[0].text == t.path[0].text;
-        });
-        if (earlier) return;
-      }
-      for (const TypeExpr::Dim& dim : t.dims)
-        if (dim.form == TypeExpr::Dim::Form::Open || dim.form == TypeExpr::Dim::Form::Generic ||
-            (dim.form == TypeExpr::Dim::Form::Named && !find(c, dim.path)))
-          return;
-      if (t.form == TypeExpr::Form::Array) pending.push_back(t.element);
+/// What an alias names is seen from outside like what it stands for.
+void Elaborator::export_alias(const Alias& a) {
+  Binding* b = find(program_scope_, a.outside.text);
+  if (!b) return;
+  function_ = new_function("alias " + a.outside.text);
+  if (b->form == Binding::Form::Constant)
+    return export_value(a.outside.text, evaluate_constant(*b));
+  for (FunctionDecl* d : b->functions)
+    if (d->function().formals.empty() && !d->library) {
+      std::vector<BoundArgument> none;
+      return export_value(a.outside.text, call_script(d, {}, none, a.span));
     }
-    types.push_back(resolve_type(c, formal.type, nullptr));
-    if (!types_.is_numeric(types.back())) return;
-  }
-  function_ = new_function("check " + f.name.text);
-  std::vector<Value> formals;
-  for (TypeId type : types) {
-    std::vector<SlotType> slots;
-    slot_types(type, slots);
-    std::vector<Ref> refs;
-    for (SlotType s : slots) refs.push_back(node(vm::Op::LoadLocal, {}, 0, 0, {s}));
-    std::size_t next = 0;
-    formals.push_back(unflatten(type, refs, next));
-  }
-  const TypeId result = resolve_type(c, f.result, nullptr);
-  if (result == TypeTable::kPoison) return;
-  unknown_arguments_ = !formals.empty();
-  const Value v = invoke(d, formals, {}, result, f.header);
-  unknown_arguments_ = false;
-  if (f.formals.empty() && !d->library) export_value(f.name.text, v);
 }
 
 void Elaborator::check_constant(const Graph& graph, const Constant& k, Scope* scope) {
@@ -281,20 +297,22 @@ void Elaborator::export_value(const std::string& name, const Value& v) {
   exports.push_back({name, types_.spell(v.type), function_});
 }
 
-void Elaborator::descriptor(const Graph& graph, const Descriptor& d, Scope* scope) {
+void Elaborator::descriptor(const NamedDescriptor& named) {
+  const Descriptor& d = *named.syntax;
   for (const ElaboratedDescriptor& other : descriptors)
-    if (other.syntax->form == d.form && other.syntax->name.text == d.name.text)
-      diagnostics_.add(Diag::Redefined, d.name.span, d.name.text)
+    if (other.syntax->form == d.form && other.name == named.name)
+      diagnostics_.add(Diag::Redefined, d.name.span, named.name)
           .note(other.syntax->name.span, "first defined here");
   function_ =
-      new_function((d.form == Descriptor::Form::Surface ? "surface " : "volume ") + d.name.text);
+      new_function((d.form == Descriptor::Form::Surface ? "surface " : "volume ") + named.name);
   ElaboratedDescriptor e;
   e.syntax = &d;
-  e.graph = &graph;
+  e.graph = named.graph;
+  e.name = named.name;
   e.function = function_;
   line_ = line_of(d.name.span);
-  Scope* inner = new_scope(scope);
-  body({&graph, inner}, d.body);
+  Scope* inner = new_scope(named.scope);
+  body({named.graph, inner}, d.body);
   outputs(e, inner);
   descriptors.push_back(std::move(e));
 }
@@ -350,8 +368,9 @@ void Elaborator::run(std::span<const Graph> graphs) {
   program_scope_ = new_scope(library_scope_);
   function_ = new_function("params");
   for (const Graph& g : graphs)  // an import of one of these is no other file
-    imported_[std::filesystem::weakly_canonical(g.source->name).string()] = program_scope_;
+    imported_[key_of(g)] = program_scope_;
   for (const Graph& g : graphs) add_graph(g, program_scope_);
+  for (const DeclaredParam& p : declared_params_) describe_param(*p.graph, *p.param, p.scope);
   for (const auto& [name, text] : options_.params) {
     const bool there = std::any_of(params.begin(), params.end(),
                                    [&](const ParamInfo& p) { return p.name == name; });
@@ -364,11 +383,13 @@ void Elaborator::run(std::span<const Graph> graphs) {
   }
   for (const Graph& g : graphs) {
     for (const Constant& k : g.constants) check_constant(g, k, program_scope_);
-    for (const Descriptor& d : g.descriptors) descriptor(g, d, program_scope_);
+    for (const Alias& a : g.aliases) export_alias(a);
   }
+  for (const NamedDescriptor& d : program_scope_->descriptors) descriptor(d);
+  check_definitions();
   for (std::size_t i = 0; i < decls_.size(); ++i) {  // checking may add nested ones
     FunctionDecl& d = decls_[i];
-    if (!d.library && d.scope == program_scope_) check_function(&d);
+    if (d.scope->file) check_function(&d);
   }
 }
 

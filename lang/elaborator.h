@@ -12,6 +12,7 @@
 /// elaborate_call.cpp (overloads), elaborate_recursion.cpp (inlining), elaborate_top.cpp (items,
 /// descriptors), derive.cpp (derivatives).
 
+#include <climits>
 #include <deque>
 #include <set>
 #include <span>
@@ -40,6 +41,7 @@ struct BoundArgument {
 struct ElaboratedDescriptor {
   const Descriptor* syntax = nullptr;
   const Graph* graph = nullptr;
+  std::string name;  ///< its own or an alias
   std::uint16_t function = 0;
   Value outputs[static_cast<std::size_t>(vm::Output::Count)];
   bool stated[static_cast<std::size_t>(vm::Output::Count)] = {};
@@ -83,7 +85,14 @@ class Elaborator {
     FunctionDecl* decl = nullptr;
     const vm::Builtin* row = nullptr;
   };
-  struct Signature;
+  /// The header of a builtin row, parsed by the language's own parser.
+  struct Signature {
+    Graph graph;
+    std::vector<vm::SlotType> params, results;
+    TypeId result = TypeTable::kPoison;
+    bool all_real = true;  ///< then a spectrum may stand for any argument
+    const Function& function() const { return graph.functions[0]; }
+  };
   struct CallSite {
     std::uint16_t function;
     std::uint32_t node;
@@ -94,6 +103,7 @@ class Elaborator {
     std::vector<CallSite> sites;
     std::size_t own_params = 0;
     TypeId result = TypeTable::kPoison;
+    bool complete = false;
   };
   struct Frame {
     FunctionDecl* decl;
@@ -109,13 +119,21 @@ class Elaborator {
   Scope* new_scope(Scope* parent, bool library = false);
   Binding* declare(Scope* scope, const Name& name, Binding binding);
   void declare_function(Context c, FunctionHandle h);
+  TypeId type_of(Binding& b);
+  TypeId define(Context c, const TypeDefinition& t);
+  void check_ambiguity(Scope* scope, const Name& name);
   void declare_type(Context c, const TypeDefinition& t);
   void declare_constant(Context c, const Constant& k);
+  static constexpr int kUnknownSize = INT_MIN;  ///< of a dimension that is no number at link
   Binding* find(Scope* scope, std::string_view name);
+  /// What the scope itself, and what it imports, calls by that name.
+  std::vector<Binding*> bindings_in(Scope* scope, std::string_view name);
   Binding* find(Context c, const Path& path);
   std::vector<std::string> visible_names(Scope* scope);
-  void unknown_name(Context c, const Path& path, Diag id);
+  void unknown_name(Context c, const Path& path, Diag id,
+                    const std::vector<std::string>& inside = {});
   TypeId resolve_type(Context c, TypeHandle h, const Generics* generics);
+  int known_size(int size);
   int resolve_dim(Context c, const TypeExpr::Dim& d, const Generics* generics);
   bool unify(Context c, TypeHandle pattern, TypeId actual, Generics& g, int& cost);
   void collect_generics(Context c, TypeHandle h, Generics& g);
@@ -169,28 +187,40 @@ class Elaborator {
   Value index(const Value& array, const Value& i, Span span);
   Value expr_field(Context c, const Expr& e);
   Value expr_select(Context c, const Expr& e, std::size_t arm);
+  Value join_arms(Context c, const Expr& e, ExprHandle value, const Value& v, TypeId other);
   Value expr_array(Context c, const Expr& e);
   Value array_of(std::vector<Value> parts, const std::vector<Span>& spans);
   Value expr_convert(Context c, const Expr& e);
   Value expr_call(Context c, const Expr& e);
   Value evaluate_constant(Binding& b);
+  void report_circle(Binding& b);
 
   // --- calls (elaborate_call.cpp) ---
   const Signature& signature(const vm::Builtin* row);
   std::vector<BoundArgument> arguments(Context c, const Expr& e);
   Value call_named(Context c, const Path& path, std::vector<BoundArgument> args, Span span);
+  bool hides_library_function(const Path& path) const;
   Value call_library(std::string_view name, std::vector<Value> args, Span span);
   Value call_candidates(const std::vector<std::vector<Candidate>>& levels, std::string_view name,
                         std::vector<BoundArgument>& args, Span span);
+  std::vector<std::vector<Candidate>> candidates(Context c, const Path& path, const Binding& b);
   Match match(const Candidate& k, const std::vector<BoundArgument>& args);
-  bool bind_formals(const Function& f, const std::vector<BoundArgument>& args, Match& m);
+  static bool bind_formals(const std::vector<Formal>& formals,
+                           const std::vector<BoundArgument>& args, std::vector<int>& argument,
+                           std::string& why);
   Value call_builtin(const vm::Builtin* row, const Match& m, std::vector<BoundArgument>& args,
                      Span span);
   Value call_spectral(const vm::Builtin* row, const std::vector<Value>& values, Span span);
   Value make_material(const vm::Builtin* row, const std::vector<Value>& values);
   Value call_script(FunctionDecl* d, const Match& m, std::vector<BoundArgument>& args, Span span);
   TypeId formal_type(Context c, TypeHandle h, TypeId actual, const Generics& g);
-  void infer_results(Context c, const Function& f, const std::vector<Value>& formals, Generics& g);
+  bool ready(Context c, TypeHandle h, const Generics& g);
+  bool mentions_generic(Context c, TypeHandle h, const Generics& g);
+  TypeId result_of(const Value& f, const std::vector<TypeId>& types, Span span);
+  bool infer_results(Context c, const Function& f, const std::vector<Value>& formals,
+                     const std::vector<Span>& spans, Generics& g);
+  std::vector<Value> with_defaults(FunctionDecl* d, const Match& m,
+                                   std::vector<BoundArgument>& args);
   Value call_function_value(const Value& f, std::vector<BoundArgument> args, Span span);
   Value call_lambda(const FunctionValue& f, std::vector<BoundArgument>& args, Span span);
   Value construct(TypeId type, std::vector<BoundArgument>& args, Span span);
@@ -206,25 +236,67 @@ class Elaborator {
   bool any_known(const std::vector<Value>& values) const;
   void body(Context c, const Body& b);
 
+  // --- what only the library may call (elaborate_intrinsics.cpp) ---
+  Value call_intrinsic(std::string_view name, const std::vector<BoundArgument>& args);
+  Value tabulate(const Value& count, const Value& f);
+  Value gradient_of(const Value& f, const Value& point);
+  Value at_each_wavelength(const Value& f, const Value& spectrum);
+  std::optional<Ref> widened(std::uint32_t first, Ref x, Ref s, Ref root);
+  Ref component(Ref spectrum, std::uint32_t k);
+  Ref stand_in();
+  std::optional<Ref> call_for_real(const Value& f, Value x);
+  std::vector<bool> reached(std::uint32_t first, const std::vector<Ref>& roots) const;
+  std::vector<Ref> substitute(std::uint32_t first, const std::vector<Ref>& from,
+                              const std::vector<Ref>& to, std::vector<Ref> roots);
+
   // --- the differentiation pass (derive.cpp) ---
   using Tangents = std::map<Ref, Ref>;  ///< derivative of a real value; not there: zero
+  /// How a node that reads the hit changes: along `$tangent`, along `$bitangent`, or not at all.
+  static constexpr int kAlongTangent = 0, kAlongBitangent = 1, kAlongNothing = -1;
+  struct Deriving {
+    Span span;         ///< what is differentiated
+    std::string help;  ///< where that fails
+  };
+  std::optional<Ref> derive(Tangents& t, Ref root, std::uint32_t first, int direction);
   std::optional<Ref> tangent(const Tangents& t, Ref r) const;
   void derive_node(std::uint32_t index, int direction, Tangents& t);
   void derive_builtin(const Node& n, Ref r, Tangents& t);
+  bool is_complete(std::uint16_t function);
   std::uint16_t derive_function(std::uint16_t function, int direction);
   Ref sum(std::optional<Ref> a, std::optional<Ref> b);
   Value derive_gradient(const Value& height, Span span);
+
+  // --- types without values (elaborate_peek.cpp): kPoison where the text alone does not say ---
+  TypeId peek(Context c, ExprHandle h);
+  TypeId peek_name(Context c, const Path& path);
+  TypeId peek_call(Context c, const Expr& e);
+  TypeId peek_call(Context c, const Path& path, const std::vector<BoundArgument>& args);
+  TypeId peek_call(const Value& f, const std::vector<BoundArgument>& args);
+  TypeId peek_candidates(const std::vector<std::vector<Candidate>>& levels,
+                         const std::vector<BoundArgument>& args);
+  TypeId peek_joined(Context c, const std::vector<ExprHandle>& values);
+  TypeId arithmetic_type(Operator op, TypeId a, TypeId b);
+  TypeId operator_type(Operator op, TypeId a, TypeId b);
+
+  // --- checking what nobody calls (elaborate_check.cpp) ---
+  Value unknown_value(TypeId type);
+  void check_function(FunctionDecl* d);
+  void check_definitions();
+  bool is_generic(Context c, const Function& f);
 
   // --- items and descriptors (elaborate_top.cpp) ---
   void load_library();
   void add_graph(const Graph& graph, Scope* scope);
   void import(const Graph& from, const Import& i, Scope* scope);
   void add_params(const Graph& graph, Scope* scope);
+  std::string key_of(const Graph& graph) const;
+  bool closes_circle(const std::string& key, const Import& i);
+  std::vector<NamedDescriptor> find_descriptors(Context c, const Path& path);
+  void export_alias(const Alias& a);
   void add_aliases(const Graph& graph, Scope* scope);
   void describe_param(const Graph& graph, const Param& p, Scope* scope);
-  void check_function(FunctionDecl* d);
   void check_constant(const Graph& graph, const Constant& k, Scope* scope);
-  void descriptor(const Graph& graph, const Descriptor& d, Scope* scope);
+  void descriptor(const NamedDescriptor& d);
   void outputs(ElaboratedDescriptor& e, Scope* scope);
   void load_module(const Library::Module& m);
   void declare_items(const Graph& graph, Scope* scope);
@@ -241,13 +313,24 @@ class Elaborator {
   std::deque<FunctionDecl> decls_;
   std::deque<Graph> graphs_;  ///< library modules and imports
   std::map<std::string, Scope*> imported_;
+  struct OpenFile {
+    std::string key, name;
+  };
+  std::vector<OpenFile> open_files_;  ///< each imported by the one before
+  struct DeclaredParam {
+    const Graph* graph;
+    const Param* param;
+    Scope* scope;
+  };
+  std::vector<DeclaredParam> declared_params_;
   std::map<std::string, Scope*, std::less<>> modules_;
   std::map<const vm::Builtin*, std::unique_ptr<Signature>> signatures_;
   std::map<std::string, Instance> instances_;
   std::map<std::uint16_t, Instance*> instance_of_;
   std::map<const Source*, std::uint32_t> source_index_;
   std::map<std::pair<std::uint16_t, int>, std::uint16_t> derived_;  ///< by function and direction
-  Span deriving_;  ///< the height that is being differentiated
+  Deriving deriving_;
+  Span user_span_;  ///< where a script called the function of the library that is being inlined
   Scope* library_scope_ = nullptr;
   Scope* program_scope_ = nullptr;
 
@@ -259,7 +342,9 @@ class Elaborator {
   vm::SourceLine line_;
   bool unknown_arguments_ = false;  ///< a function is checked for arguments nobody knows: what must
                                     ///< be known at link may still be so in every call of it
-  bool full_ = false;               ///< a limit was hit and reported: stop making nodes
+  std::vector<Binding*> evaluating_;  ///< constants, each asked for by the one before
+  int peeking_ = 0;    ///< constants and lambdas that are being looked into for a type
+  bool full_ = false;  ///< a limit was hit and reported: stop making nodes
 };
 
 }  // namespace mms::lang

@@ -191,7 +191,7 @@ class ProgramBuilder {
       }
     }
     if (!b.results().empty())
-      e.function = emitter_.emit(d.function, b.results(), d.syntax->name.text + "." + what);
+      e.function = emitter_.emit(d.function, b.results(), d.name + "." + what);
     return e;
   }
 
@@ -199,7 +199,7 @@ class ProgramBuilder {
     vm::Descriptor out;
     const bool surface = d.syntax->form == Descriptor::Form::Surface;
     out.form = surface ? vm::DescriptorForm::Surface : vm::DescriptorForm::Volume;
-    out.name = d.syntax->name.text;
+    out.name = d.name;
     out.shade = entry(d, o,
                       {Output::Scattering, Output::Absorption, Output::Emission, Output::Material,
                        Output::EmissionMaterial, Output::Gradient},

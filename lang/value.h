@@ -39,6 +39,7 @@ struct FunctionValue {
   Path path;               ///< `#path`
   std::optional<Operator> op;
   Span span;
+  bool opaque = false;  ///< stands for a function nobody knows: only its type is checked
 };
 
 /// A material expression: one scattering model or combiner, its numbers and its parts.
@@ -73,23 +74,36 @@ struct Binding {
   Span span;
   bool library = false;
 
-  Value value;                           // Value
-  std::vector<FunctionDecl*> functions;  // Functions
-  std::vector<const vm::Builtin*> rows;  // Functions of the library
-  TypeId type = TypeTable::kPoison;      // Type; Constant: what it is converted to, if anything
-  Scope* scope = nullptr;                // Namespace; Constant: where it is evaluated
-  const Graph* graph = nullptr;          // Constant
-  TypeHandle stated;                     // Constant
-  ExprHandle expr;                       // Constant
-  bool busy = false;                     // Constant: being evaluated
-  std::map<std::uint16_t, Value> cache;  // Constant: by function it was evaluated in
+  Value value;                                 // Value
+  std::vector<FunctionDecl*> functions;        // Functions
+  std::vector<const vm::Builtin*> rows;        // Functions of the library
+  TypeId type = TypeTable::kPoison;            // Type, once it is resolved
+  const TypeDefinition* definition = nullptr;  // Type, until it is resolved
+  Scope* scope = nullptr;                      // Namespace; Constant, Type: where it is evaluated
+  const Graph* graph = nullptr;                // Constant, Type
+  const Graph* stated_in = nullptr;            // Constant: the graph of `stated`
+  TypeHandle stated;                           // Constant
+  ExprHandle expr;                             // Constant
+  bool busy = false;                           // Constant, Type: being evaluated
+  bool circular = false;                       // Constant: asks for itself, which was said
+  std::map<std::uint16_t, Value> cache;        // Constant: by function it was evaluated in
+};
+
+/// A surface or a volume and the name it goes by, its own or an alias.
+struct NamedDescriptor {
+  std::string name;
+  const Graph* graph = nullptr;
+  const Descriptor* syntax = nullptr;
+  Scope* scope = nullptr;
 };
 
 struct Scope {
   Scope* parent = nullptr;
   bool library = false;
-  std::vector<Scope*> imports;  ///< of files that another scope took in first
+  bool file = false;            ///< the top level of a script
+  std::vector<Scope*> imports;  ///< of files whose names are read here without a prefix
   std::map<std::string, Binding, std::less<>> names;
+  std::vector<NamedDescriptor> descriptors;  ///< of a file
 };
 
 }  // namespace mms::lang

@@ -16,6 +16,32 @@ generic T mix(generic T a, b, real t) = a + (b - a) * t;
 /// `mix` of numbers; integers widen.
 real mix(real a, b, t) = a + (b - a) * t;
 
+/// `mix` of arrays of numbers, element by element.
+real[n] mix(real[n] a, b, real t) = a + (b - a) * t;
+
+/// `mix` of matrices of numbers.
+real[r, c] mix(real[r, c] a, b, real t) = a + (b - a) * t;
+
+/// The array [f(0), f(1), ...] of n elements; n is known at link.
+T[n] array(integer n, function(integer) -> generic T f) = intrinsic::array(n, f);
+
+/// The array [f(a[0]), f(a[1]), ...]; of a matrix, f takes the rows.
+U[n] map(function(generic T) -> generic U f, T[n] a) = array(n, function(k) -> f(a[k]));
+
+/// The array [f(a[0], b[0]), f(a[1], b[1]), ...].
+V[n] zip(function(generic T, generic U) -> generic V f, T[n] a, U[n] b) = array(n, function(k) -> f(a[k], b[k]));
+
+/// f(... f(f(first, a[0]), a[1]) ..., a[n - 1]): `fold(#+, 0, a)` is the sum.
+U fold(function(generic U, generic T) -> U f, U first, T[n] a)
+    U upto(integer k, U so_far) = select so_far, if k == n; upto(k + 1, f(so_far, a[k])) otherwise end;
+    return upto(0, first);
+
+/// The exact derivative of f at x.
+real gradient(function(real) -> real f, real x) = intrinsic::gradient(f, x);
+
+/// The exact partial derivatives of f at p.
+real[n] gradient(function(real[n]) -> real f, real[n] p) = intrinsic::gradient(f, p);
+
 /// x limited to [0, 1].
 real saturate(real x) = clamp(x, 0.0, 1.0);
 

@@ -19,3 +19,9 @@ spectrum blackbody_normalised(real temperature)
 spectrum gaussian_band(real centre, width)
     d = ($wavelength - centre) / width;
     return exp(-0.5 * d * d);
+
+/// f of each wavelength, in metres: any function of a real becomes a spectrum.
+spectrum spectral(function(real) -> real f) = intrinsic::spectral(f, $wavelength);
+
+/// f of each value of a spectrum.
+spectrum spectral(function(real) -> real f, spectrum s) = intrinsic::spectral(f, s);

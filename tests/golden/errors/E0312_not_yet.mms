@@ -1,5 +1,3 @@
-// Names that are kept for later.
-spectrum f() = spectral(#sin);
-//             ^^^^^^^^^^^^^^ error E0312: `spectral`
-real[2] g() = gradient(#sin, 1);
-//            ^^^^^^^^^^^^^^^^^ error E0312: `gradient`
+// A name that is kept for later.
+real f() = image("wood.png", $uv);
+//         ^^^^^^^^^^^^^^^^^^^^^^ error E0312: `image`

@@ -1,4 +1,4 @@
-// Files may import each other; each is there once.
+// A file that imports itself by way of another has no beginning.
 import "parts/back.mms";
 const here = 1;
-const a = there + 1;                   // expect: 3
+// error E0313: circular.mms -> back.mms -> circular.mms

@@ -1,0 +1,2 @@
+// The other.
+const thing = 3;
