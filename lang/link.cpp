@@ -252,7 +252,8 @@ std::optional<Linked> link(std::span<const Graph> graphs, const Library& library
   elaborator.run(graphs);
   if (diagnostics.has_errors()) return std::nullopt;
   Linked linked{ProgramBuilder(elaborator, diagnostics).build(options.level),
-                std::move(elaborator.params), std::move(elaborator.dependencies)};
+                std::move(elaborator.params), std::move(elaborator.dependencies),
+                std::move(elaborator.unknown_params)};
   if (const auto fault = vm::verify(linked.program))
     throw std::logic_error("emitted code does not verify: " + fault->function + ": " + fault->what);
   return linked;

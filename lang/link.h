@@ -30,10 +30,15 @@ struct Library {
 
 enum class Level : std::uint8_t { O0, O1, O2 };
 
+/// What becomes of a value for a param that no script has: an error, or a name in
+/// `Linked::unknown_params`.
+enum class UnknownParams : std::uint8_t { Refuse, Report };
+
 struct LinkOptions {
   Level level = Level::O2;
   std::vector<std::string> import_path;                     ///< `-I`, in order
-  std::vector<std::pair<std::string, std::string>> params;  ///< `--param name=expression`
+  std::vector<std::pair<std::string, std::string>> params;  ///< `--set name=expression`
+  UnknownParams unknown_params = UnknownParams::Refuse;
 };
 
 /// A pass of the optimiser: what `--dump-after` and the manual print.
@@ -52,7 +57,8 @@ struct ParamInfo {
 struct Linked {
   vm::Program program;
   std::vector<ParamInfo> params;
-  std::vector<std::string> dependencies;  ///< imported files
+  std::vector<std::string> dependencies;    ///< imported files
+  std::vector<std::string> unknown_params;  ///< of LinkOptions::params, where they are reported
 };
 
 /// Links `graphs` (and what they import) into a program, or says why not.

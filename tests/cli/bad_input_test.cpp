@@ -99,11 +99,14 @@ TEST_CASE("a misspelt output") {
 TEST_CASE("an unknown param") {
   const Folder folder;
   folder.write("good.mms", kGood);
-  const Outcome run = folder.mms("check good.mms --param scale=2");
-  INFO(run.err);
-  CHECK(run.exit == 1);
-  CHECK(contains(run.err, "scale"));
-  check_message(folder.mms("check good.mms --param scale"), 2, "--param", "scale");
+  check_message(folder.mms("check good.mms --set scale=2"), 2, "--set",
+                "nothing is called `scale`");
+  check_message(folder.mms("check good.mms --set scale"), 2, "--set", "scale");
+  check_message(folder.mms("check good.mms --set '$time=2'"), 2, "--set", "time");
+  folder.write("grain.mms", "param real grain = 1.0;\n");
+  check_message(folder.mms("check grain.mms --set grian=2"), 2, "--set", "did you mean `grain`?");
+  check_message(folder.mms("check grain.mms --set grain=2+"), 2, "--set grain:1:", "expected");
+  check_message(folder.mms("check grain.mms --set grain=true"), 2, "--set grain:1:1", "real");
 }
 
 TEST_CASE("a material is no value to print") {
@@ -126,8 +129,9 @@ TEST_CASE("unknown verb, option or message code") {
   check_message(folder.mms("check --color=maybe x.mms"), 2, "mms check", "maybe");
   check_message(folder.mms("explain E9999"), 2, "mms explain", "E9999");
   check_message(folder.mms("doc stdlb"), 2, "mms doc", "did you mean `stdlib`?");
-  check_message(folder.mms("eval --set positoin=1,2,3 1"), 2, "--set", "positoin");
-  check_message(folder.mms("eval --set position=1,2 1"), 2, "--set", "3 numbers");
+  check_message(folder.mms("eval --set 'positoin=[1,2,3]' 1"), 2, "--set",
+                "did you mean `$position`?");
+  check_message(folder.mms("eval --set 'position=[1,2]' 1"), 2, "--set $position", "real[3]");
 }
 
 #if MMS_RENDERER

@@ -59,7 +59,7 @@ TEST_CASE("check says nothing about a good script, from a file or standard input
   const Folder folder;
   folder.write("marble.mms", kMarble);
   for (const char* args : {"check marble.mms", "check -O0 marble.mms", "check -",
-                           "check --param scale=8 marble.mms", "check marble.mms marble.mms"}) {
+                           "check --set scale=8 marble.mms", "check marble.mms marble.mms"}) {
     const Outcome run = folder.mms(args, kMarble);
     INFO(args, run.err);
     CHECK(run.exit == 0);
@@ -127,13 +127,13 @@ TEST_CASE("eval prints values of every type") {
 }
 
 TEST_CASE("eval reads variables, files and standard input") {
-  CHECK(eval("'$position[1] * 2' --set position=1,2.5,3") == "5\n");
+  CHECK(eval("'$position[1] * 2' --set position=[1,2.5,3]") == "5\n");
   CHECK(eval("'$normal'") == "[0, 0, 1]\n");
   CHECK(eval("'$wavelength' --set wavelength=0.5") ==
         "spectrum(0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5)\n");
   CHECK(eval("-f - 'sq(7.0)'", "real sq(real x) = x * x;\n") == "49\n");
   CHECK(eval("-", "const real half = 0.5;\n") == "half = 0.5\n");
-  CHECK(eval("--param k=3 -f - 'k * 2'", "param integer k = 1;\n") == "6\n");
+  CHECK(eval("--set k=3 -f - 'k * 2'", "param integer k = 1;\n") == "6\n");
 }
 
 TEST_CASE("eval in double does not pass through float") {
