@@ -7,7 +7,8 @@ real fbm(real[n] p, integer octaves, real gain = 0.5, lacunarity = 2.0)
     real octave(real[n] q, integer left, real amplitude, total)
         return select
             total, if left <= 0;
-            octave(lacunarity * q, left - 1, gain * amplitude, total + amplitude * perlin(q)) otherwise;
+            octave(lacunarity * q, left - 1, gain * amplitude,
+                total + amplitude * perlin(q)) otherwise;
         end;
     return octave(p, octaves, 1.0, 0.0);
 
@@ -16,7 +17,8 @@ real turbulence(real[n] p, integer octaves, real gain = 0.5, lacunarity = 2.0)
     real octave(real[n] q, integer left, real amplitude, total)
         return select
             total, if left <= 0;
-            octave(lacunarity * q, left - 1, gain * amplitude, total + amplitude * abs(perlin(q))) otherwise;
+            octave(lacunarity * q, left - 1, gain * amplitude,
+                total + amplitude * abs(perlin(q))) otherwise;
         end;
     return octave(p, octaves, 1.0, 0.0);
 
@@ -25,6 +27,7 @@ real ridged(real[n] p, integer octaves, real gain = 0.5, lacunarity = 2.0)
     real octave(real[n] q, integer left, real amplitude, total)
         return select
             total, if left <= 0;
-            octave(lacunarity * q, left - 1, gain * amplitude, total + amplitude * (1.0 - abs(perlin(q)))) otherwise;
+            octave(lacunarity * q, left - 1, gain * amplitude,
+                total + amplitude * (1.0 - abs(perlin(q)))) otherwise;
         end;
     return octave(p, octaves, 1.0, 0.0);

@@ -11,7 +11,8 @@ real checker(real[3] p) = (floor(p[0]) + floor(p[1]) + floor(p[2])) % 2.0;
 real stripes(real x, share = 0.5) = 1.0 - step(share, fract(x));
 
 /// 1 on discs of that radius in the middle of unit squares, else 0.
-real dots(real[2] p, real radius = 0.3) = 1.0 - step(radius, length([fract(p[0]) - 0.5, fract(p[1]) - 0.5]));
+real dots(real[2] p, real radius = 0.3) =
+    1.0 - step(radius, length([fract(p[0]) - 0.5, fract(p[1]) - 0.5]));
 
 /// Where in its brick a point lies, in [0, 1) along both axes: unit bricks, odd courses shifted by half.
 real[2] brick_position(real[2] p) = [fract(p[0] + 0.5 * (floor(p[1]) % 2.0)), fract(p[1])];
@@ -19,7 +20,8 @@ real[2] brick_position(real[2] p) = [fract(p[0] + 0.5 * (floor(p[1]) % 2.0)), fr
 /// 1 on the bricks of `brick_position`, 0 in the mortar between them, which is `mortar` wide.
 real brick(real[2] p, real mortar = 0.08)
     q = brick_position(p);
-    return pulse(0.5 * mortar, 1.0 - 0.5 * mortar, q[0]) * pulse(0.5 * mortar, 1.0 - 0.5 * mortar, q[1]);
+    return pulse(0.5 * mortar, 1.0 - 0.5 * mortar, q[0])
+        * pulse(0.5 * mortar, 1.0 - 0.5 * mortar, q[1]);
 
 /// A number in [0, 1) for each brick.
 real brick_tint(real[2] p) = cellnoise([p[0] + 0.5 * (floor(p[1]) % 2.0), p[1]]);
