@@ -10,6 +10,7 @@
 #include "api/library.h"
 #include "lang/parser.h"
 #include "tools/command.h"
+#include "tools/doc_comment.h"
 #include "vm/limits.h"
 
 namespace mms::tools {
@@ -60,8 +61,9 @@ std::string module_entries(const lang::Library::Module& module) {
   for (const lang::FunctionHandle handle : graph.top_functions) {
     const lang::Function& f = graph[handle];
     if (f.doc.empty()) continue;
-    text += fmt::format("`{}`\n\n{}\n\n",
-                        source->text.substr(f.header.begin, f.header.end - f.header.begin), f.doc);
+    text += fmt::format("`{}`\n\n{}\n",
+                        source->text.substr(f.header.begin, f.header.end - f.header.begin),
+                        doc_markdown(f.doc));
   }
   return text;
 }
@@ -128,8 +130,9 @@ std::string bytecode_document() {
       "operands. Cost is in units of one real addition.\n\n"
       "| Instruction | Operand | Pops | Pushes | Cost | Meaning |\n|---|---|---|---|---|---|\n",
       kMade);
-  constexpr std::string_view kOperands[] = {"-",          "constant", "input",  "local",
-                                            "block type", "function", "builtin"};
+  constexpr std::string_view kOperands[] = {"-",          "constant", "input",   "local",
+                                            "block type", "function", "builtin", "wavelength"};
+  static_assert(std::size(kOperands) == static_cast<std::size_t>(vm::OperandForm::Wavelength) + 1);
   for (const vm::OpInfo& row : vm::kOps)
     text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.name,
                         kOperands[static_cast<std::size_t>(row.operand)], or_dash(row.pops),

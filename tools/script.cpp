@@ -154,7 +154,8 @@ void print(const lang::Diagnostics& diagnostics, const ScriptOptions& options) {
 }
 
 std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
-                                const ScriptOptions& options, Exit& exit) {
+                                const ScriptOptions& options, lang::Diagnostics& diagnostics,
+                                Exit& exit) {
   const Result<Settings> settings = split(options.settings);
   if (!settings) {
     exit = fail(Exit::Usage, settings.error(), options);
@@ -165,20 +166,16 @@ std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
   link.import_path = options.import_path;
   link.params = settings->plain;
   link.unknown_params = lang::UnknownParams::Report;
-  lang::Diagnostics diagnostics;
   std::vector<lang::Graph> graphs;
-  for (const lang::SourcePtr& source : sources) graphs.push_back(lang::parse(source, diagnostics));
+  for (const lang::SourcePtr& source : sources) {
+    diagnostics.keep(source);
+    graphs.push_back(lang::parse(source, diagnostics));
+  }
   std::optional<lang::Linked> linked;
   if (!diagnostics.has_errors())
     linked = lang::link(graphs, api::standard_library(), link, diagnostics);
-  print(diagnostics, options);
-  exit = Exit::Script;
   if (!linked) {
-    if (only_settings(diagnostics)) exit = Exit::Usage;
-    return std::nullopt;
-  }
-  if (options.warnings == "error" && diagnostics.warning_count() > 0) {
-    print_error({"", "there were warnings, and -Werror is set", ""}, colours(options));
+    exit = only_settings(diagnostics) ? Exit::Usage : Exit::Script;
     return std::nullopt;
   }
   auto set = variables(*settings, *linked, options.at_points);
@@ -186,8 +183,17 @@ std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
     exit = fail(Exit::Usage, set.error(), options);
     return std::nullopt;
   }
-  exit = Exit::Ok;
   return Compiled{std::move(*linked), std::move(*set)};
+}
+
+std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
+                                const ScriptOptions& options, Exit& exit) {
+  lang::Diagnostics diagnostics;
+  auto compiled = compile(sources, options, diagnostics, exit);
+  print(diagnostics, options);
+  if (!compiled || options.warnings != "error" || diagnostics.warning_count() == 0) return compiled;
+  exit = fail(Exit::Script, {"", "there were warnings, and -Werror is set", ""}, options);
+  return std::nullopt;
 }
 
 std::optional<std::vector<lang::SourcePtr>> read_sources(const std::vector<std::string>& files,

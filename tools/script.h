@@ -58,6 +58,11 @@ struct Compiled : lang::Linked {
 std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
                                 const ScriptOptions& options, Exit& exit);
 
+/// The same without printing: what there is to say of the sources is left in `diagnostics`.
+std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
+                                const ScriptOptions& options, lang::Diagnostics& diagnostics,
+                                Exit& exit);
+
 /// The same from files; `-` is standard input.
 std::optional<Compiled> compile_files(const std::vector<std::string>& files,
                                       const ScriptOptions& options, Exit& exit);
