@@ -163,6 +163,7 @@ std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
   }
   lang::LinkOptions link;
   link.level = static_cast<lang::Level>(options.level[0] - '0');
+  link.dump_after = options.dump_after;
   link.import_path = options.import_path;
   link.params = settings->plain;
   link.unknown_params = lang::UnknownParams::Report;

@@ -20,6 +20,7 @@ struct ScriptOptions {
   std::vector<std::string> files;
   std::vector<std::string> import_path;
   std::vector<std::string> settings;  ///< of `--set`, as written: `name=value`
+  std::string dump_after;             ///< a pass of lang::passes(), for Linked::dump
   std::string level = "2", warnings, colour = "auto", format = "text";
   bool at_points = false;  ///< the verb evaluates points, so `--set` may set `$variables`
 
