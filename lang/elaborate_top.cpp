@@ -179,7 +179,7 @@ void Elaborator::add_params(const Graph& graph, Scope* scope) {
     b.stated_in = &graph;  // a replaced value is in another one
     for (const auto& [name, text] : options_.params) {
       if (name != p.name.text) continue;
-      graphs_.push_back(parse_expression(make_source("--param " + name, text), diagnostics_));
+      graphs_.push_back(parse_expression(make_source("--set " + name, text), diagnostics_));
       if (graphs_.back().exprs.empty()) continue;
       b.graph = &graphs_.back();
       b.expr = {static_cast<std::uint32_t>(graphs_.back().exprs.size() - 1)};
@@ -375,6 +375,10 @@ void Elaborator::run(std::span<const Graph> graphs) {
     const bool there = std::any_of(params.begin(), params.end(),
                                    [&](const ParamInfo& p) { return p.name == name; });
     if (there) continue;
+    if (options_.unknown_params == UnknownParams::Report) {
+      unknown_params.push_back(name);
+      continue;
+    }
     std::vector<std::string> names;
     for (const ParamInfo& p : params) names.push_back(p.name);
     Diagnostic& d = diagnostics_.add(Diag::UnknownParam, Span{}, name);

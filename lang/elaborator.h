@@ -66,6 +66,7 @@ class Elaborator {
   std::vector<ElaboratedDescriptor> descriptors;
   std::vector<ElaboratedExport> exports;
   std::vector<ParamInfo> params;
+  std::vector<std::string> unknown_params;
   std::vector<std::string> dependencies;
   std::vector<std::string> sources;
 

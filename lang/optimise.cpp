@@ -232,17 +232,16 @@ IrFunction convert_ifs(const Module& m, IrFunction f) {
 
 constexpr Pass kPipeline[] = {
     {{"fold",
-      "replace what is known at link time by constants, computed with the machine's kernels"},
-     Level::O1,
+      "replace what is known at link time by constants, computed with the machine's kernels",
+      Level::O1},
      fold_known},
-    {{"dead", "drop values nobody reads"}, Level::O0, remove_dead},
-    {{"share", "compute equal pure expressions once"}, Level::O1, share},
-    {{"simplify", "apply identities that hold for every float"}, Level::O2, simplify},
-    {{"if-convert", "compute both sides of a cheap choice instead of branching"},
-     Level::O2,
+    {{"dead", "drop values nobody reads", Level::O0}, remove_dead},
+    {{"share", "compute equal pure expressions once", Level::O1}, share},
+    {{"simplify", "apply identities that hold for every float", Level::O2}, simplify},
+    {{"if-convert", "compute both sides of a cheap choice instead of branching", Level::O2},
      convert_ifs},
-    {{"share-again", "compute once what the last passes made equal"}, Level::O2, share},
-    {{"dead-again", "drop what the last passes left behind"}, Level::O1, remove_dead},
+    {{"share-again", "compute once what the last passes made equal", Level::O2}, share},
+    {{"dead-again", "drop what the last passes left behind", Level::O1}, remove_dead},
 };
 
 }  // namespace
@@ -258,15 +257,18 @@ std::span<const PassInfo> passes() {
   return infos;
 }
 
-void optimise(Module& module, Level level) {
-  for (IrFunction& f : module.functions) {
-    if (f.results.empty()) continue;
-    for (const Pass& p : kPipeline) {
-      if (level < p.from) continue;
+std::string optimise(Module& module, const LinkOptions& options) {
+  std::string text;
+  for (const Pass& p : kPipeline) {
+    if (options.level < p.info.from) continue;
+    for (IrFunction& f : module.functions) {
+      if (f.results.empty()) continue;
       f = p.run(module, std::move(f));
       assert(check(module, f).empty());
+      if (p.info.name == options.dump_after) text += dump(module, f);
     }
   }
+  return text;
 }
 
 }  // namespace mms::lang

@@ -12,14 +12,14 @@ namespace mms::lang {
 
 struct Pass {
   PassInfo info;
-  Level from;  ///< the lowest level that runs it
   IrFunction (*run)(const Module&, IrFunction);
 };
 
 /// The pipeline, in order.
 std::span<const Pass> pipeline();
 
-/// Runs the passes of `level` over every function.
-void optimise(Module& module, Level level);
+/// Runs the passes of the level over every function; the text of all of them after the pass that
+/// is to be dumped.
+std::string optimise(Module& module, const LinkOptions& options);
 
 }  // namespace mms::lang

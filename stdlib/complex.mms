@@ -3,6 +3,8 @@
 
 /// a / b, which the operator `/` calls: Smith's division, so that nothing overflows on the way that
 /// does not in the end.
+/// >>> complex_divide(1 + 2i, 3 + 4i)
+/// 0.44 + 0.08i
 complex complex_divide(complex a, b)
     wide  = abs(b.re) >= abs(b.im);
     large = select b.re, if wide; b.im otherwise end;

@@ -2,33 +2,53 @@
 // Metals, glasses and liquids by name.
 
 /// Polished to rough gold.
-material gold(real roughness = 0.1) = conductor(gold_n($wavelength), gold_k($wavelength), roughness);
+/// >>> gold(0.2)
+material gold(real roughness = 0.1) =
+    conductor(gold_n($wavelength), gold_k($wavelength), roughness);
 
 /// Polished to rough silver.
-material silver(real roughness = 0.1) = conductor(silver_n($wavelength), silver_k($wavelength), roughness);
+/// >>> silver()
+material silver(real roughness = 0.1) =
+    conductor(silver_n($wavelength), silver_k($wavelength), roughness);
 
 /// Polished to rough copper.
-material copper(real roughness = 0.1) = conductor(copper_n($wavelength), copper_k($wavelength), roughness);
+/// >>> copper(0.2)
+material copper(real roughness = 0.1) =
+    conductor(copper_n($wavelength), copper_k($wavelength), roughness);
 
 /// Polished to rough aluminium.
-material aluminium(real roughness = 0.1) = conductor(aluminium_n($wavelength), aluminium_k($wavelength), roughness);
+/// >>> aluminium()
+material aluminium(real roughness = 0.1) =
+    conductor(aluminium_n($wavelength), aluminium_k($wavelength), roughness);
 
 /// Clear smooth glass; disperses where `ior` varies with wavelength: `glass(bk7())`.
+/// >>> glass(bk7())
 material glass(spectrum ior = 1.5) = dielectric(ior);
 
 /// Clear water with its own dispersion.
+/// >>> water()
 material water() = dielectric(water_ior());
 
 /// Refractive index of borosilicate crown glass N-BK7 (Schott catalogue).
-spectrum bk7() = sellmeier($wavelength, 1.03961212, 0.00600069867, 0.231792344, 0.0200179144, 1.01046945, 103.560653);
+/// >>> bk7()
+/// 1.5...
+spectrum bk7() = sellmeier($wavelength, 1.03961212, 0.00600069867, 0.231792344, 0.0200179144,
+    1.01046945, 103.560653);
 
 /// Refractive index of dense flint glass N-SF11 (Schott catalogue): strong dispersion.
-spectrum sf11() = sellmeier($wavelength, 1.73759695, 0.013188707, 0.313747346, 0.0623068142, 1.89878101, 155.23629);
+/// >>> sf11()
+/// 1.8...
+spectrum sf11() = sellmeier($wavelength, 1.73759695, 0.013188707, 0.313747346, 0.0623068142,
+    1.89878101, 155.23629);
 
 /// Refractive index of diamond (Peter 1923).
+/// >>> diamond()
+/// 2.4...
 spectrum diamond() = sellmeier($wavelength, 0.3306, 0.030625, 4.3356, 0.011236, 0.0, 0.0);
 
 /// Refractive index of pure water at 20 degrees Celsius (Quan and Fry 1995).
+/// >>> water_ior()
+/// 1.3...
 spectrum water_ior()
     nm = $wavelength * 1e9;
     return 1.313242 + (15.7834 + (1.1455e6 / nm - 4382.0) / nm) / nm;

@@ -2,18 +2,28 @@
 // Constants and shaping functions that every script can use.
 
 /// Half a turn, in radians.
+/// >>> cos(pi)
+/// -1
 const real pi = 3.14159265358979323846;
 
 /// A whole turn, in radians.
+/// >>> sin(tau / 4)
+/// 1
 const real tau = 6.28318530717958647693;
 
 /// The base of the natural logarithm.
+/// >>> log(e)
+/// 1
 const real e = 2.71828182845904523536;
 
 /// `a` at t = 0, `b` at t = 1, straight between and beyond.
+/// >>> mix([0.0, 1.0], [1.0, 3.0], 0.5)
+/// [0.5, 2]
 generic T mix(generic T a, b, real t) = a + (b - a) * t;
 
 /// `mix` of numbers; integers widen.
+/// >>> mix(2, 4, 0.25)
+/// 2.5
 real mix(real a, b, t) = a + (b - a) * t;
 
 /// `mix` of arrays of numbers, element by element.
@@ -43,36 +53,56 @@ real gradient(function(real) -> real f, real x) = intrinsic::gradient(f, x);
 real[n] gradient(function(real[n]) -> real f, real[n] p) = intrinsic::gradient(f, p);
 
 /// x limited to [0, 1].
+/// >>> saturate(1.5)
+/// 1
 real saturate(real x) = clamp(x, 0.0, 1.0);
 
 /// 0 where x is below `edge`, else 1.
+/// >>> step(0.5, 0.7)
+/// 1
 real step(real edge, x) = select 0.0, if x < edge; 1.0 otherwise; end;
 
 /// 1 from `a` (included) to `b` (not included), else 0.
+/// >>> pulse(0.2, 0.4, 0.3)
+/// 1
 real pulse(real a, b, x) = step(a, x) - step(b, x);
 
 /// 0 below `a`, 1 above `b`, a straight line between.
+/// >>> linearstep(1.0, 3.0, 2.5)
+/// 0.75
 real linearstep(real a, b, x) = saturate((x - a) / (b - a));
 
 /// 0 below `a`, 1 above `b`, between them the cubic that is level at both.
+/// >>> smoothstep(0.0, 1.0, 0.25)
+/// 0.15625
 real smoothstep(real a, b, x)
     t = linearstep(a, b, x);
     return t * t * (3.0 - 2.0 * t);
 
 /// The number that stands to [c, d] as x does to [a, b].
+/// >>> remap(5.0, 0.0, 10.0, 1.0, 2.0)
+/// 1.5
 real remap(real x, a, b, c, d) = c + (x - a) * ((d - c) / (b - a));
 
 /// Bends [0, 1] on itself so that 1/2 becomes `amount`, in (0, 1) (Schlick 1994).
+/// >>> bias(0.5, 0.3)
+/// 0.3
 real bias(real x, amount) = x / ((1.0 / amount - 2.0) * (1.0 - x) + 1.0);
 
 /// Steepens (`amount` above 1/2) or flattens the middle of [0, 1], which keeps 0, 1/2 and 1 (Schlick 1994).
+/// >>> gain(0.5, 0.8)
+/// 0.5
 real gain(real x, amount) = select
     0.5 * bias(2.0 * x, 1.0 - amount), if x < 0.5;
     1.0 - 0.5 * bias(2.0 - 2.0 * x, 1.0 - amount) otherwise;
 end;
 
 /// a - b floor(a / b), as `a % b`: has the sign of b.
+/// >>> mod(-1.0, 3.0)
+/// 2
 real mod(real a, b) = a % b;
 
 /// a - b trunc(a / b): has the sign of a.
+/// >>> fmod(-1.0, 3.0)
+/// -1
 real fmod(real a, b) = a - b * trunc(a / b);

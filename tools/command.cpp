@@ -2,6 +2,7 @@
 #include "tools/command.h"
 
 #include <cstdio>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -80,6 +81,11 @@ Exit usage_error(const CLI::App& app, const CLI::ParseError& e, const std::strin
   return Exit::Usage;
 }
 
+Exit output_failed() {
+  print_error({"standard output", "cannot be written", "is the disk full?"});
+  return Exit::File;
+}
+
 }  // namespace
 
 std::vector<Verb> verbs() {
@@ -95,15 +101,14 @@ Exit run_command(int argc, const char* const* argv) {
   build(app, all, exit);
   try {
     app.parse(argc, argv);
+  } catch (const std::system_error&) {  // what fmt::print throws
+    if (!std::ferror(stdout)) throw;
+    return output_failed();
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() != 0) return usage_error(app, e, argc > 1 ? argv[1] : "");
     app.exit(e);  // prints the help or the version
   }
-  if (std::fflush(stdout) != 0) {
-    print_error({"standard output", "cannot be written", "is the disk full?"});
-    return Exit::File;
-  }
-  return exit;
+  return std::fflush(stdout) == 0 ? exit : output_failed();
 }
 
 std::string command_help() {

@@ -15,9 +15,13 @@ Verb eval_verb();
 Verb disasm_verb();
 Verb explain_verb();
 Verb doc_verb();
+Verb completion_verb();
+Verb fmt_verb();
+Verb test_verb();
 
 /// In the order of `mms --help`.
-inline constexpr Verb (*kVerbs[])() = {check_verb,  render_verb,  info_verb, eval_verb,
-                                       disasm_verb, explain_verb, doc_verb};
+inline constexpr Verb (*kVerbs[])() = {check_verb,  render_verb,    info_verb, eval_verb,
+                                       disasm_verb, fmt_verb,       test_verb, explain_verb,
+                                       doc_verb,    completion_verb};
 
 }  // namespace mms::tools

@@ -2,6 +2,8 @@
 // mms disasm: the bytecode of a script, as text.
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,10 +15,29 @@ namespace mms::tools {
 
 namespace {
 
+std::vector<std::string> pass_names() {
+  std::vector<std::string> names;
+  for (const lang::PassInfo& pass : lang::passes()) names.emplace_back(pass.name);
+  return names;
+}
+
 Exit disasm(const ScriptOptions& options) {
   Exit exit = Exit::Ok;
-  if (const auto linked = compile_files(options.files, options, exit))
+  const auto linked = compile_files(options.files, options, exit);
+  if (!linked) return exit;
+  if (options.dump_after.empty()) {
     fmt::print("{}", vm::disassemble(linked->program));
+    return exit;
+  }
+  for (const lang::PassInfo& pass : lang::passes())
+    if (pass.name == options.dump_after && options.level[0] - '0' < static_cast<int>(pass.from))
+      return fail(
+          Exit::Usage,
+          {"--dump-after", fmt::format("`{}` does not run at -O{}", pass.name, options.level),
+           fmt::format("it does from -O{} on; `mms doc passes` says which run when",
+                       static_cast<int>(pass.from))},
+          options);
+  fmt::print("{}", linked->dump);
   return exit;
 }
 
@@ -26,10 +47,14 @@ Verb disasm_verb() {
   auto options = std::make_shared<ScriptOptions>();
   Verb verb{"disasm",
             "Print the bytecode that a script is linked to",
-            "Examples:\n  mms disasm marble.mms\n  mms disasm -O0 marble.mms",
+            "Examples:\n  mms disasm marble.mms\n  mms disasm -O0 marble.mms\n  mms disasm "
+            "--dump-after=fold marble.mms",
             {},
             [options] { return disasm(*options); }};
   add_files(verb, *options, "Scripts, linked together");
+  verb.add({"--dump-after", &options->dump_after, "PASS",
+            "Print the linker's graph after a pass instead; `mms doc passes` lists them",
+            pass_names()});
   add_script_options(verb, *options);
   return verb;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// mms doc: the reference pages, printed, written, or compared with what is there.
+// mms doc: the reference pages and the manuals of scripts, printed, written, or compared with what
+// is there.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -10,10 +11,14 @@
 
 #include <fmt/format.h>
 
-#include "lang/diagnostics.h"
+#include "api/library.h"
+#include "lang/parser.h"
 #include "tools/commands.h"
 #include "tools/document.h"
+#include "tools/file.h"
+#include "tools/html.h"
 #include "tools/script.h"
+#include "tools/script_document.h"
 
 namespace mms::tools {
 
@@ -21,63 +26,77 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct DocOptions {
+struct DocOptions : ScriptOptions {
   std::string page, write, check;
+  bool html = false;
 };
 
-fs::path page_path(const std::string& folder, const Document& page) {
-  return fs::path(folder) / fmt::format("{}.md", page.name);
+std::string rendered(const std::string& markdown, const DocOptions& options) {
+  return options.html ? html_page(markdown) : markdown;
 }
 
-Exit write_pages(const std::string& folder) {
+fs::path page_path(const std::string& folder, const Document& page, const DocOptions& options) {
+  return fs::path(folder) / fmt::format("{}.{}", page.name, options.html ? "html" : "md");
+}
+
+Exit write_pages(const DocOptions& options) {
   for (const Document& page : documents()) {
-    const fs::path path = page_path(folder, page);
-    std::ofstream out(path, std::ios::binary);
-    out << page.text();
-    out.close();
-    if (!out) {
-      print_error({path.string(), "cannot be written", "name a folder that exists"});
-      return Exit::File;
-    }
+    const fs::path path = page_path(options.write, page, options);
+    if (const auto error = replace_file(path.string(), rendered(page.text(), options)))
+      return fail(Exit::File, {error->where, error->what, "name a folder that exists"}, options);
   }
   return Exit::Ok;
 }
 
 /// Compares every page with its file: Script where one differs, File where one is missing.
-Exit check_pages(const std::string& folder) {
+Exit check_pages(const DocOptions& options) {
   Exit exit = Exit::Ok;
   for (const Document& page : documents()) {
-    const fs::path path = page_path(folder, page);
+    const fs::path path = page_path(options.check, page, options);
     std::ifstream in(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(in), {}};
-    if (in && text == page.text()) continue;
-    print_error({path.string(), in ? "is not what the tables say" : "cannot be read",
-                 "./run document writes it anew"});
-    exit = in ? Exit::Script : Exit::File;
+    if (in && text == rendered(page.text(), options)) continue;
+    exit = fail(in ? Exit::Script : Exit::File,
+                {path.string(), in ? "is not what the tables say" : "cannot be read",
+                 "./run document writes it anew"},
+                options);
   }
   return exit;
 }
 
-Exit print_page(const std::string& name) {
+Exit print_script(const DocOptions& options) {
+  const Result<lang::SourcePtr> source = api::read_source(options.page);
+  if (!source) return fail(Exit::File, source.error(), options);
+  lang::Diagnostics diagnostics;
+  const lang::Graph graph = lang::parse(*source, diagnostics);
+  print(diagnostics, options);
+  if (diagnostics.has_errors()) return Exit::Script;
+  fmt::print("{}", rendered(script_document(graph), options));
+  return Exit::Ok;
+}
+
+Exit print_page(const DocOptions& options) {
+  if (options.page == "-" || options.page.ends_with(".mms")) return print_script(options);
   std::vector<std::string> names;
   for (const Document& page : documents()) {
-    if (page.name == name) {
-      fmt::print("{}", page.text());
+    if (page.name == options.page) {
+      fmt::print("{}", rendered(page.text(), options));
       return Exit::Ok;
     }
     names.emplace_back(page.name);
   }
-  const std::string near = lang::nearest(name, names);
-  print_error({"mms doc", fmt::format("no page is called `{}`", name),
+  const std::string near = lang::nearest(options.page, names);
+  return fail(Exit::Usage,
+              {"mms doc", fmt::format("no page is called `{}`", options.page),
                near.empty() ? fmt::format("there are: {}", fmt::join(names, ", "))
-                            : fmt::format("did you mean `{}`?", near)});
-  return Exit::Usage;
+                            : fmt::format("did you mean `{}`?", near)},
+              options);
 }
 
 Exit doc(const DocOptions& options) {
-  if (!options.write.empty()) return write_pages(options.write);
-  if (!options.check.empty()) return check_pages(options.check);
-  if (!options.page.empty()) return print_page(options.page);
+  if (!options.write.empty()) return write_pages(options);
+  if (!options.check.empty()) return check_pages(options);
+  if (!options.page.empty()) return print_page(options);
   for (const Document& page : documents()) fmt::print("{:<10}{}\n", page.name, page.doc);
   return Exit::Ok;
 }
@@ -87,13 +106,17 @@ Exit doc(const DocOptions& options) {
 Verb doc_verb() {
   auto options = std::make_shared<DocOptions>();
   Verb verb{"doc",
-            "Print a page of the reference, or list the pages",
-            "Examples:\n  mms doc\n  mms doc stdlib | less",
+            "Print a page of the reference or the manual of a script, or list the pages",
+            "The manual of a script is made of its /// comments.\n\nExamples:\n  mms doc\n"
+            "  mms doc stdlib | less\n  mms doc --html marble.mms > marble.html",
             {},
             [options] { return doc(*options); }};
-  verb.add({"PAGE", &options->page, "", "The page; none lists them"});
+  verb.add({"PAGE", &options->page, "",
+            "The page, or a script (*.mms, - is standard input); none lists the pages"});
+  verb.add({"--html", &options->html, "", "As one HTML page with a search box, not as Markdown"});
   verb.add({"--write", &options->write, "DIR", "Write all pages to a folder"});
   verb.add({"--check", &options->check, "DIR", "Fail if a page in a folder is out of date"});
+  add_colour_option(verb, *options);
   return verb;
 }
 

@@ -10,6 +10,7 @@
 #include "api/library.h"
 #include "lang/parser.h"
 #include "tools/command.h"
+#include "tools/doc_comment.h"
 #include "vm/limits.h"
 
 namespace mms::tools {
@@ -22,6 +23,8 @@ constexpr Document kDocuments[] = {
     {"errors", "every message, explained", errors_document},
     {"bytecode", "the instructions of the machine", bytecode_document},
     {"cli", "the command, its verbs and its exit codes", cli_document},
+    {"info", "what `mms info` prints, and its JSON", info_document},
+    {"passes", "what the optimiser does, in order", passes_document},
 };
 
 constexpr std::string_view kMade =
@@ -60,8 +63,9 @@ std::string module_entries(const lang::Library::Module& module) {
   for (const lang::FunctionHandle handle : graph.top_functions) {
     const lang::Function& f = graph[handle];
     if (f.doc.empty()) continue;
-    text += fmt::format("`{}`\n\n{}\n\n",
-                        source->text.substr(f.header.begin, f.header.end - f.header.begin), f.doc);
+    text += fmt::format("`{}`\n\n{}\n",
+                        source->text.substr(f.header.begin, f.header.end - f.header.begin),
+                        doc_markdown(f.doc));
   }
   return text;
 }
@@ -130,6 +134,7 @@ std::string bytecode_document() {
       kMade);
   constexpr std::string_view kOperands[] = {"-",          "constant", "input",   "local",
                                             "block type", "function", "builtin", "wavelength"};
+  static_assert(std::size(kOperands) == static_cast<std::size_t>(vm::OperandForm::Wavelength) + 1);
   for (const vm::OpInfo& row : vm::kOps)
     text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.name,
                         kOperands[static_cast<std::size_t>(row.operand)], or_dash(row.pops),
@@ -139,6 +144,63 @@ std::string bytecode_document() {
       "calls open at a time; calls in tail position do not count. A material holds at most {} "
       "scattering models and combiners.\n",
       vm::limits::kBackEdges, vm::limits::kCallDepth, vm::limits::kLobes);
+  return text;
+}
+
+std::string info_document() {
+  return fmt::format("# What a program knows about itself\n\n{}{}", kMade, R"(
+`mms info` prints it; with `--format=json` as one object. `schema` is a number that grows when a
+member goes or means something else; new members may come without that.
+
+| Member | Value |
+|---|---|
+| `schema` | 1 |
+| `params` | each `param`: `name`, `type`, `value` (numbers, flattened), `range` (two numbers, if stated), `label`, `unit`, `page`, `doc` |
+| `descriptors` | each surface and volume, as below |
+| `dependencies` | the files that are imported, directly or not |
+
+A descriptor:
+
+| Member | Value |
+|---|---|
+| `form`, `name`, `file`, `line` | `surface` or `volume`, and where it stands |
+| `reciprocal` | whether light is scattered alike in both directions: bsdf or phase, scattering, absorption, height and gradient read none of `$view`, `$distance`, `$footprint` |
+| `outputs` | by name, as below |
+| `entries` | `shade` (what a path vertex needs), `pass` (a shadow ray), `emit` (an emitter), `displace`: as below |
+
+An output:
+
+| Member | Value |
+|---|---|
+| `stated` | whether the author wrote it, or it was derived from what the author wrote |
+| `rate` | `constant`: reads no variable (params are folded at link). `uniform`: reads only what is the same for a whole frame, `$time`. `varying`: anything else |
+| `spectral` | whether it depends on the wavelength |
+| `reads` | the variables it depends on |
+| `material`, `reciprocal`, `lobes` | of materials: the tree of models and combiners; whether it reads nothing of the ray; each node's `name` and `traits`: `reflects`, `transmits`, `specular`, `polished` (specular where its roughness says so), `dispersive`, `combiner`, `phase` |
+
+An entry, or zeros where all its values are constants and nothing is run:
+
+| Member | Value |
+|---|---|
+| `instructions` | of its function and all that it reaches, each function once |
+| `cost` | in units of one real addition: both arms of each choice, each loop once, each recursion one level deep |
+| `stack_blocks` | bound of what the frames of all open calls take: numbers for each point |
+| `calls` | most calls open at a time; calls in tail position are none |
+| `back_edges` | most tail calls and recursive calls of a point; 0 where there is no loop |
+| `recursion` | `none`, `tail` or `calls`. Where it is not `none`, the machine's limits are the bounds |
+)");
+}
+
+std::string passes_document() {
+  std::string text = fmt::format(
+      "# Passes\n\n{}\nWhat the optimiser does with each function, in order. No pass changes a "
+      "value. "
+      "`mms disasm --dump-after=NAME` prints the linker's graph after one.\n\n"
+      "| Pass | From | What it does |\n|---|---|---|\n",
+      kMade);
+  for (const lang::PassInfo& pass : lang::passes())
+    text += fmt::format("| `{}` | -O{} | {} |\n", pass.name, static_cast<int>(pass.from),
+                        cell(pass.doc));
   return text;
 }
 

@@ -23,5 +23,7 @@ std::string bytecode_document();
 std::string errors_document();
 std::string inputs_document();
 std::string cli_document();
+std::string info_document();
+std::string passes_document();
 
 }  // namespace mms::tools

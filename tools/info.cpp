@@ -10,14 +10,30 @@
 #include <nlohmann/json.hpp>
 
 #include "api/outputs.h"
+#include "materials/table.h"
 #include "tools/commands.h"
+#include "tools/dependencies.h"
 #include "tools/script.h"
+#include "vm/facts.h"
 
 namespace mms::tools {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Grows when a member of the JSON goes or means something else; new members do not count.
+constexpr int kSchema = 1;
+
+struct InfoOptions : ScriptOptions {
+  DepsOption deps;
+};
+
+constexpr std::pair<materials::Trait, const char*> kTraitNames[] = {
+    {materials::Reflects, "reflects"},     {materials::Transmits, "transmits"},
+    {materials::Specular, "specular"},     {materials::Polished, "polished"},
+    {materials::Dispersive, "dispersive"}, {materials::Combiner, "combiner"},
+    {materials::PhaseFunction, "phase"}};
 
 struct NamedEntry {
   const char* name;
@@ -28,18 +44,22 @@ constexpr NamedEntry kEntries[] = {{"shade", &vm::Descriptor::shade},
                                    {"emit", &vm::Descriptor::emit},
                                    {"displace", &vm::Descriptor::displace}};
 
-std::size_t instructions(const vm::Program& program, const vm::Entry& entry) {
-  return entry.function ? program.functions[*entry.function].code.size() : 0;
+constexpr const char* kRates[] = {"constant", "uniform", "varying"};
+
+/// A variable as scripts name it: a hidden one stands for what it is the change of, or for the
+/// wavelength it is made of.
+std::string_view visible_name(const vm::VariableInfo& row) {
+  if (row.visibility != vm::Visibility::Hidden) return row.name;
+  for (const vm::VariableInfo& moving : vm::kVariables)
+    if (row.name == moving.along_tangent || row.name == moving.along_bitangent) return moving.name;
+  return vm::info(vm::Variable::Wavelength).name;
 }
 
-/// What is read, as scripts name it: a hidden variable stands for the wavelength it is made of.
 std::vector<std::string> variables(std::uint32_t bits) {
   std::vector<std::string> names;
   for (const vm::VariableInfo& row : vm::kVariables) {
     if (!(bits >> static_cast<unsigned>(row.variable) & 1u)) continue;
-    const bool hidden = row.visibility == vm::Visibility::Hidden;
-    std::string name =
-        fmt::format("${}", hidden ? vm::info(vm::Variable::Wavelength).name : row.name);
+    std::string name = fmt::format("${}", visible_name(row));
     if (std::find(names.begin(), names.end(), name) == names.end())
       names.push_back(std::move(name));
   }
@@ -61,26 +81,61 @@ std::string material(const vm::Descriptor& d, vm::Output output) {
   return tree(*source->layout, source->layout->nodes.size() - 1);
 }
 
-Json to_json(const vm::Program& program, const vm::Descriptor& d) {
-  Json json;
-  json["form"] = d.form == vm::DescriptorForm::Surface ? "surface" : "volume";
-  json["name"] = d.name;
-  json["file"] = d.line.source < program.sources.size() ? program.sources[d.line.source] : "";
-  json["line"] = d.line.line;
-  for (const NamedEntry& e : kEntries)
-    json["instructions"][e.name] = instructions(program, d.*e.entry);
+/// The models and combiners of a material: what they can do, by the table of traits.
+Json lobes(const vm::Descriptor& d, vm::Output output) {
+  Json all = Json::array();
+  const auto source = api::material_source(d, output);
+  if (!source) return all;
+  for (const vm::LayoutNode& node : source->layout->nodes) {
+    const unsigned bits = materials::traits(static_cast<materials::Lobe>(node.lobe));
+    Json traits = Json::array();
+    for (const auto& [trait, name] : kTraitNames)
+      if (bits & trait) traits.push_back(name);
+    all.push_back({{"name", api::lobe_name(node.lobe)}, {"traits", traits}});
+  }
+  return all;
+}
+
+Json output_json(const vm::Descriptor& d, vm::Output output) {
+  const vm::OutputInfo& info = d.output(output);
+  Json json{{"stated", info.stated},
+            {"rate", kRates[static_cast<int>(vm::rate(info))]},
+            {"spectral", info.spectral},
+            {"reads", variables(info.variables)}};
+  if (const std::string text = material(d, output); !text.empty()) {
+    json["material"] = text;
+    json["reciprocal"] = vm::reciprocal(info);
+    json["lobes"] = lobes(d, output);
+  }
+  return json;
+}
+
+/// One way to run the descriptor; nothing but zeros where all its values are constants.
+Json entry_json(const vm::Entry& entry, const std::vector<vm::CodeFacts>& facts) {
+  const vm::CodeFacts f = entry.function ? facts[*entry.function] : vm::CodeFacts{};
+  return {{"instructions", f.instructions},
+          {"cost", f.cost},
+          {"calls", f.calls},
+          {"back_edges", f.back_edges},
+          {"stack_blocks", f.stack_blocks},
+          {"recursion", f.recursive ? "calls"
+                        : f.loops   ? "tail"
+                                    : "none"}};
+}
+
+Json to_json(const vm::Program& program, const vm::Descriptor& d,
+             const std::vector<vm::CodeFacts>& facts) {
+  Json json{{"form", d.form == vm::DescriptorForm::Surface ? "surface" : "volume"},
+            {"name", d.name},
+            {"file", d.line.source < program.sources.size() ? program.sources[d.line.source] : ""},
+            {"line", d.line.line},
+            {"reciprocal", vm::reciprocal(d)}};
   for (int i = 0; i < static_cast<int>(vm::Output::Count); ++i) {
     const auto output = static_cast<vm::Output>(i);
     const std::string name(api::output_name(d.form, output));
-    if (name.empty()) continue;
-    const vm::OutputInfo& info = d.output(output);
-    Json& o = json["outputs"][name];
-    o["stated"] = info.stated;
-    o["constant"] = info.constant;
-    o["spectral"] = info.spectral;
-    o["reads"] = variables(info.variables);
-    if (const std::string text = material(d, output); !text.empty()) o["material"] = text;
+    if (!name.empty()) json["outputs"][name] = output_json(d, output);
   }
+  for (const NamedEntry& e : kEntries) json["entries"][e.name] = entry_json(d.*e.entry, facts);
   return json;
 }
 
@@ -94,47 +149,60 @@ Json to_json(const lang::ParamInfo& p) {
   return json;
 }
 
+void print_descriptor(const Json& json) {
+  fmt::print("{} {}  ({}:{}){}\n", json["form"].get<std::string>(), json["name"].get<std::string>(),
+             json["file"].get<std::string>(), json["line"].get<int>(),
+             json["reciprocal"] ? "" : " not reciprocal");
+  for (const auto& [name, o] : json["outputs"].items()) {
+    std::string line = fmt::format("  {:<18}{:<9}{:<9}", name, o["stated"] ? "stated" : "default",
+                                   o["rate"].get<std::string>());
+    if (o["spectral"]) line += " spectral";
+    if (o.contains("material")) line += " " + o["material"].get<std::string>();
+    if (!o["reads"].empty())
+      line += fmt::format(" reads {}", fmt::join(o["reads"].get<std::vector<std::string>>(), " "));
+    fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+  }
+  fmt::print("  {:<18}{:>12}{:>8}{:>8}{:>8}{:>12}  recursion\n", "entry", "instructions", "cost",
+             "stack", "calls", "back edges");
+  for (const auto& [name, e] : json["entries"].items())
+    fmt::print("  {:<18}{:>12}{:>8}{:>8}{:>8}{:>12}  {}\n", name, e["instructions"].dump(),
+               e["cost"].dump(), e["stack_blocks"].dump(), e["calls"].dump(),
+               e["back_edges"].dump(), e["recursion"].get<std::string>());
+}
+
 void print_text(const lang::Linked& linked) {
   for (const lang::ParamInfo& p : linked.params) {
     fmt::print("param {} {} = {}", p.type, p.name, fmt::join(p.value, ", "));
     if (p.range) fmt::print(" in [{}, {}]", p.range->first, p.range->second);
     fmt::print("{}{}\n", p.label.empty() ? "" : "  ", p.label);
   }
-  for (const vm::Descriptor& d : linked.program.descriptors) {
-    const Json json = to_json(linked.program, d);
-    fmt::print("{} {}  ({}:{})\n", json["form"].get<std::string>(), d.name,
-               json["file"].get<std::string>(), d.line.line);
-    for (const auto& [name, o] : json["outputs"].items()) {
-      std::string line = fmt::format("  {:<18}{:<9}{:<9}", name, o["stated"] ? "stated" : "default",
-                                     o["constant"] ? "constant" : "varying");
-      if (o["spectral"]) line += " spectral";
-      if (o.contains("material")) line += " " + o["material"].get<std::string>();
-      if (!o["reads"].empty())
-        line +=
-            fmt::format(" reads {}", fmt::join(o["reads"].get<std::vector<std::string>>(), " "));
-      fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
-    }
-    fmt::print("  instructions     ");
-    for (const auto& [name, count] : json["instructions"].items())
-      fmt::print(" {} {}", name, count.get<std::size_t>());
-    fmt::print("\n");
-  }
+  const std::vector<vm::CodeFacts> facts = vm::code_facts(linked.program);
+  for (const vm::Descriptor& d : linked.program.descriptors)
+    print_descriptor(to_json(linked.program, d, facts));
 }
 
-Exit info(const ScriptOptions& options) {
+Exit info(const InfoOptions& options) {
   Exit exit = Exit::Ok;
-  const auto linked = compile_files(options.files, options, exit);
+  ScriptOptions compiling = options;
+  compiling.format = "text";  // standard output is for the one object
+  const auto linked = compile_files(options.files, compiling, exit);
   if (!linked) return exit;
+  if (!options.deps.form.empty()) {
+    print_deps(options.files.front(), *linked, options.deps, options);
+    return exit;
+  }
   if (!options.json()) {
     print_text(*linked);
     return exit;
   }
-  Json json{{"params", Json::array()},
+  Json json{{"schema", kSchema},
+            {"params", Json::array()},
             {"descriptors", Json::array()},
             {"dependencies", linked->dependencies}};
   for (const lang::ParamInfo& p : linked->params) json["params"].push_back(to_json(p));
+  const std::vector<vm::CodeFacts> facts = vm::code_facts(linked->program);
   for (const vm::Descriptor& d : linked->program.descriptors)
-    json["descriptors"].push_back(to_json(linked->program, d));
+    json["descriptors"].push_back(to_json(linked->program, d, facts));
   fmt::print("{}\n", json.dump(2));
   return exit;
 }
@@ -142,13 +210,16 @@ Exit info(const ScriptOptions& options) {
 }  // namespace
 
 Verb info_verb() {
-  auto options = std::make_shared<ScriptOptions>();
-  Verb verb{"info",
-            "Tell what a linked script knows about itself",
-            "Examples:\n  mms info marble.mms\n  mms info --format=json marble.mms | jq .params",
-            {},
-            [options] { return info(*options); }};
+  auto options = std::make_shared<InfoOptions>();
+  Verb verb{
+      "info",
+      "Tell what a linked script knows about itself",
+      "`mms doc info` describes the columns and the JSON.\n\nExamples:\n  mms info marble.mms\n"
+      "  mms info --format=json marble.mms | jq .params\n  mms info --deps marble.mms",
+      {},
+      [options] { return info(*options); }};
   add_files(verb, *options, "Scripts, linked together");
+  add_deps_option(verb, options->deps);
   add_script_options(verb, *options);
   add_format_option(verb, *options);
   return verb;

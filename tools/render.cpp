@@ -96,7 +96,7 @@ Verb render_verb() {
             "Ctrl-C stops, writes what is there, and ends with code 130.\n\nExamples:\n"
             "  mms render marble.mms\n  mms render marble.mms -o marble.exr --samples 256\n"
             "  mms render examples/*.mms -o out/ --size 256x256\n"
-            "  mms render --param scale=8 --surface marble marble.mms --report",
+            "  mms render --set scale=8 --surface marble marble.mms --report",
             {},
             [request] { return render(*request); }};
   add_files(verb, *request, "Scripts, a picture of each");

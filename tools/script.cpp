@@ -2,11 +2,13 @@
 #include "tools/script.h"
 
 #include <unistd.h>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
 #include <fmt/format.h>
 
+#include "api/inputs.h"
 #include "api/library.h"
 #include "lang/parser.h"
 
@@ -23,8 +25,14 @@ void add_script_options(Verb& verb, ScriptOptions& o) {
             "LEVEL",
             "Optimisation level: -O0, -O1 or -O2; the values never differ",
             {"0", "1", "2"}});
-  verb.add({"--param", &o.params, "NAME=VALUE", "Value of a `param` of the script"});
+  verb.add({"--set", &o.settings, "NAME=VALUE",
+            o.at_points ? "Value of a `param` of the script, or of a $variable: an expression"
+                        : "Value of a `param` of the script: an expression"});
   verb.add({"-W", &o.warnings, "error", "Written -Werror: warnings are errors", {"error"}});
+  add_colour_option(verb, o);
+}
+
+void add_colour_option(Verb& verb, ScriptOptions& o) {
   verb.add({"--color",
             &o.colour,
             "WHEN",
@@ -57,22 +65,80 @@ Exit fail(Exit code, const Error& error, const ScriptOptions& options) {
   return code;
 }
 
-Result<std::pair<std::string, std::string>> split_setting(const std::string& option,
-                                                          const std::string& text) {
-  const std::size_t at = text.find('=');
-  if (at == 0 || at == std::string::npos)
-    return Error{option, fmt::format("`{}` is not a setting", text),
-                 fmt::format("write {} name=value", option)};
-  return std::pair(text.substr(0, at), text.substr(at + 1));
-}
-
 namespace {
+
+constexpr std::string_view kSet = "--set";
 
 /// A message that has no help of its own names its page.
 lang::Diagnostic with_help(lang::Diagnostic d) {
   if (d.helps.empty()) d.help(fmt::format("`mms explain {}` says more", lang::info(d.id).code));
   return d;
 }
+
+struct Settings {
+  std::vector<std::pair<std::string, std::string>> plain, variables;  ///< `name`, `$name`
+};
+
+/// `name=value` and `$name=value` taken apart.
+Result<Settings> split(const std::vector<std::string>& texts) {
+  Settings settings;
+  for (const std::string& text : texts) {
+    const std::size_t at = text.find('=');
+    const bool dollar = text[0] == '$';
+    if (at == std::string::npos || at == (dollar ? 1 : 0))
+      return Error{std::string(kSet), fmt::format("`{}` is not a setting", text),
+                   "write --set name=value"};
+    (dollar ? settings.variables : settings.plain)
+        .emplace_back(text.substr(dollar, at - dollar), text.substr(at + 1));
+  }
+  return settings;
+}
+
+/// Nothing has that name: says so, and names the nearest thing that can be set.
+Error no_such(const std::string& name, const std::vector<lang::ParamInfo>& params, bool at_points) {
+  std::vector<std::string> names;
+  for (const lang::ParamInfo& p : params) names.push_back(p.name);
+  if (at_points)
+    for (const vm::VariableInfo& row : vm::kVariables)
+      if (row.visibility == vm::Visibility::Public) names.push_back(fmt::format("${}", row.name));
+  std::string near = lang::nearest(name, names);
+  if (near.empty()) near = lang::nearest("$" + name, names);
+  std::string hint = "no script here has a param";
+  if (!near.empty())
+    hint = fmt::format("did you mean `{}`?", near);
+  else if (!names.empty())
+    hint = fmt::format("there are: {}", fmt::join(names, ", "));
+  else if (api::find_variable(name))
+    hint = "only verbs that evaluate points, as `mms eval` does, set variables";
+  return {std::string(kSet), fmt::format("nothing is called `{}`", name), hint};
+}
+
+/// What is left of the settings once the params have had theirs.
+Result<std::vector<VariableSetting>> variables(const Settings& settings, const lang::Linked& linked,
+                                               bool at_points) {
+  auto all = settings.variables;
+  for (const std::string& name : linked.unknown_params)
+    all.push_back(*std::find_if(settings.plain.begin(), settings.plain.end(),
+                                [&](const auto& s) { return s.first == name; }));
+  std::vector<VariableSetting> out;
+  for (const auto& [name, value] : all) {
+    const auto variable = api::find_variable(name);
+    if (!variable || !at_points) return no_such(name, linked.params, at_points);
+    out.push_back({*variable, value});
+  }
+  return out;
+}
+
+/// Whether all that is wrong stands in values of the command line.
+bool only_settings(const lang::Diagnostics& diagnostics) {
+  return std::all_of(diagnostics.all().begin(), diagnostics.all().end(),
+                     [](const lang::Diagnostic& d) {
+                       return d.severity != lang::Severity::Error ||
+                              (d.span.source && d.span.source->name.starts_with(kSet));
+                     });
+}
+
+}  // namespace
 
 void print(const lang::Diagnostics& diagnostics, const ScriptOptions& options) {
   const bool colour = colours(options);
@@ -87,44 +153,52 @@ void print(const lang::Diagnostics& diagnostics, const ScriptOptions& options) {
   }
 }
 
-Result<lang::LinkOptions> link_options(const ScriptOptions& options) {
-  lang::LinkOptions link;
-  link.level = static_cast<lang::Level>(options.level[0] - '0');
-  link.import_path = options.import_path;
-  for (const std::string& text : options.params) {
-    auto setting = split_setting("--param", text);
-    if (!setting) return setting.error();
-    link.params.push_back(std::move(*setting));
-  }
-  return link;
-}
-
-}  // namespace
-
-std::optional<lang::Linked> compile(const std::vector<lang::SourcePtr>& sources,
-                                    const ScriptOptions& options, Exit& exit) {
-  const Result<lang::LinkOptions> link = link_options(options);
-  if (!link) {
-    exit = fail(Exit::Usage, link.error(), options);
+std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
+                                const ScriptOptions& options, lang::Diagnostics& diagnostics,
+                                Exit& exit) {
+  const Result<Settings> settings = split(options.settings);
+  if (!settings) {
+    exit = fail(Exit::Usage, settings.error(), options);
     return std::nullopt;
   }
-  lang::Diagnostics diagnostics;
+  lang::LinkOptions link;
+  link.level = static_cast<lang::Level>(options.level[0] - '0');
+  link.dump_after = options.dump_after;
+  link.import_path = options.import_path;
+  link.params = settings->plain;
+  link.unknown_params = lang::UnknownParams::Report;
   std::vector<lang::Graph> graphs;
-  for (const lang::SourcePtr& source : sources) graphs.push_back(lang::parse(source, diagnostics));
+  for (const lang::SourcePtr& source : sources) {
+    diagnostics.keep(source);
+    graphs.push_back(lang::parse(source, diagnostics));
+  }
   std::optional<lang::Linked> linked;
   if (!diagnostics.has_errors())
-    linked = lang::link(graphs, api::standard_library(), *link, diagnostics);
+    linked = lang::link(graphs, api::standard_library(), link, diagnostics);
+  if (!linked) {
+    exit = only_settings(diagnostics) ? Exit::Usage : Exit::Script;
+    return std::nullopt;
+  }
+  auto set = variables(*settings, *linked, options.at_points);
+  if (!set) {
+    exit = fail(Exit::Usage, set.error(), options);
+    return std::nullopt;
+  }
+  return Compiled{std::move(*linked), std::move(*set)};
+}
+
+std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
+                                const ScriptOptions& options, Exit& exit) {
+  lang::Diagnostics diagnostics;
+  auto compiled = compile(sources, options, diagnostics, exit);
   print(diagnostics, options);
-  const bool refused = options.warnings == "error" && diagnostics.warning_count() > 0;
-  if (linked && !refused) return linked;
-  if (refused && !diagnostics.has_errors())
-    print_error({"", "there were warnings, and -Werror is set", ""}, colours(options));
-  exit = Exit::Script;
+  if (!compiled || options.warnings != "error" || diagnostics.warning_count() == 0) return compiled;
+  exit = fail(Exit::Script, {"", "there were warnings, and -Werror is set", ""}, options);
   return std::nullopt;
 }
 
-std::optional<lang::Linked> compile_files(const std::vector<std::string>& files,
-                                          const ScriptOptions& options, Exit& exit) {
+std::optional<std::vector<lang::SourcePtr>> read_sources(const std::vector<std::string>& files,
+                                                         const ScriptOptions& options, Exit& exit) {
   std::vector<lang::SourcePtr> sources;
   for (const std::string& file : files) {
     Result<lang::SourcePtr> source = api::read_source(file);
@@ -134,7 +208,14 @@ std::optional<lang::Linked> compile_files(const std::vector<std::string>& files,
     }
     sources.push_back(*source);
   }
-  return compile(sources, options, exit);
+  return sources;
+}
+
+std::optional<Compiled> compile_files(const std::vector<std::string>& files,
+                                      const ScriptOptions& options, Exit& exit) {
+  const auto sources = read_sources(files, options, exit);
+  if (!sources) return std::nullopt;
+  return compile(*sources, options, exit);
 }
 
 }  // namespace mms::tools

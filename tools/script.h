@@ -18,8 +18,11 @@ namespace mms::tools {
 /// Options that every verb over scripts takes.
 struct ScriptOptions {
   std::vector<std::string> files;
-  std::vector<std::string> import_path, params;  ///< params as written: `name=value`
+  std::vector<std::string> import_path;
+  std::vector<std::string> settings;  ///< of `--set`, as written: `name=value`
+  std::string dump_after;             ///< a pass of lang::passes(), for Linked::dump
   std::string level = "2", warnings, colour = "auto", format = "text";
+  bool at_points = false;  ///< the verb evaluates points, so `--set` may set `$variables`
 
   bool json() const { return format == "json"; }
 };
@@ -29,6 +32,7 @@ void add_files(Verb& verb, ScriptOptions& options, const std::string& doc);
 /// Adds everything but `files` and `format`. `options` outlives the verb.
 void add_script_options(Verb& verb, ScriptOptions& options);
 void add_format_option(Verb& verb, ScriptOptions& options);
+void add_colour_option(Verb& verb, ScriptOptions& options);
 
 /// Whether messages get ANSI colours.
 bool colours(const ScriptOptions& options);
@@ -37,17 +41,35 @@ bool colours(const ScriptOptions& options);
 void print_error(const Error& error, bool colour = false);
 Exit fail(Exit code, const Error& error, const ScriptOptions& options);
 
-/// `name=value` taken apart, or an error that names the option.
-Result<std::pair<std::string, std::string>> split_setting(const std::string& option,
-                                                          const std::string& text);
+/// Every message: to standard error, or as JSON lines to standard output where asked.
+void print(const lang::Diagnostics& diagnostics, const ScriptOptions& options);
 
-/// Parses and links `sources` into one program; prints every diagnostic (as JSON lines where
-/// asked). Empty on errors, or on warnings under -Werror.
-std::optional<lang::Linked> compile(const std::vector<lang::SourcePtr>& sources,
-                                    const ScriptOptions& options, Exit& exit);
+/// One `--set name=value` that no param of the scripts took: `$name` is to have that value.
+struct VariableSetting {
+  vm::Variable variable;
+  std::string value;  ///< an expression
+};
+
+struct Compiled : lang::Linked {
+  std::vector<VariableSetting> variables;  ///< empty unless `at_points`
+};
+
+/// Parses and links `sources` into one program; prints every diagnostic. Empty on errors, on
+/// warnings under -Werror, and where `--set` names nothing that can be set.
+std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
+                                const ScriptOptions& options, Exit& exit);
+
+/// The same without printing: what there is to say of the sources is left in `diagnostics`.
+std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
+                                const ScriptOptions& options, lang::Diagnostics& diagnostics,
+                                Exit& exit);
 
 /// The same from files; `-` is standard input.
-std::optional<lang::Linked> compile_files(const std::vector<std::string>& files,
-                                          const ScriptOptions& options, Exit& exit);
+std::optional<Compiled> compile_files(const std::vector<std::string>& files,
+                                      const ScriptOptions& options, Exit& exit);
+
+/// The texts of `files`; empty where one cannot be read, which has then been said.
+std::optional<std::vector<lang::SourcePtr>> read_sources(const std::vector<std::string>& files,
+                                                         const ScriptOptions& options, Exit& exit);
 
 }  // namespace mms::tools

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every mistake a user can make ends in a message that says where, what, and what to try, in an
 // exit code of the documented list, and without a file.
+#include <unistd.h>
+#include <filesystem>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -70,6 +72,45 @@ TEST_CASE("a folder is no script") {
   check_message(folder.mms("check ."), 3, ".", "is a folder");
 }
 
+TEST_CASE("every verb over scripts says what is wrong with its file") {
+  const Folder folder;
+  folder.write("empty.mms", "");
+  folder.write("bad.mms", "surface \"s\"\n  bsdf = matte(0.5;\nend\n");
+  for (const std::string verb : {"check", "info", "disasm", "fmt", "test", "doc", "eval"}) {
+    INFO(verb);
+    check_message(folder.mms(verb + " missing.mms"), 3, "missing.mms", "No such file");
+    check_message(folder.mms(verb + " empty.mms"), 3, "empty.mms", "empty");
+    check_message(folder.mms(verb + " bad.mms"), 1, "bad.mms:2:", "error");
+    check_message(folder.mms(verb + " -", "surface s bsdf = ;"), 1, "<stdin>:1:", "error");
+    check_message(folder.mms(verb + " --no-such-option bad.mms"), 2, "mms " + verb,
+                  "no-such-option");
+  }
+  std::filesystem::create_directory(folder.path("dir.mms"));
+  for (const std::string verb : {"check", "info", "disasm", "fmt", "test", "doc", "eval"})
+    check_message(folder.mms(verb + " dir.mms"), 3, "dir.mms", "is a folder");
+}
+
+TEST_CASE("a file that may not be read") {
+  if (::geteuid() == 0) return;  // root may
+  const Folder folder;
+  folder.write("secret.mms", kGood);
+  std::filesystem::permissions(folder.path("secret.mms"), std::filesystem::perms::none);
+  check_message(folder.mms("check secret.mms"), 3, "secret.mms", "Permission denied");
+}
+
+TEST_CASE("a disk that is full") {
+  const Folder folder;
+  folder.write("good.mms", kGood);
+  for (const std::string args :
+       {"doc stdlib", "doc --html stdlib", "info good.mms", "eval 1", "disasm good.mms", "fmt -",
+        "explain E0203", "completion bash", "test good.mms", "--help"}) {
+    INFO(args);
+    check_message(
+        folder.bash("echo 'surface s bsdf = matte(1); end' | mms " + args + " >/dev/full"), 3,
+        "standard output", "cannot be written");
+  }
+}
+
 TEST_CASE("empty file") {
   const Folder folder;
   folder.write("empty.mms", "");
@@ -99,11 +140,14 @@ TEST_CASE("a misspelt output") {
 TEST_CASE("an unknown param") {
   const Folder folder;
   folder.write("good.mms", kGood);
-  const Outcome run = folder.mms("check good.mms --param scale=2");
-  INFO(run.err);
-  CHECK(run.exit == 1);
-  CHECK(contains(run.err, "scale"));
-  check_message(folder.mms("check good.mms --param scale"), 2, "--param", "scale");
+  check_message(folder.mms("check good.mms --set scale=2"), 2, "--set",
+                "nothing is called `scale`");
+  check_message(folder.mms("check good.mms --set scale"), 2, "--set", "scale");
+  check_message(folder.mms("check good.mms --set '$time=2'"), 2, "--set", "time");
+  folder.write("grain.mms", "param real grain = 1.0;\n");
+  check_message(folder.mms("check grain.mms --set grian=2"), 2, "--set", "did you mean `grain`?");
+  check_message(folder.mms("check grain.mms --set grain=2+"), 2, "--set grain:1:", "expected");
+  check_message(folder.mms("check grain.mms --set grain=true"), 2, "--set grain:1:1", "real");
 }
 
 TEST_CASE("a material is no value to print") {
@@ -126,8 +170,9 @@ TEST_CASE("unknown verb, option or message code") {
   check_message(folder.mms("check --color=maybe x.mms"), 2, "mms check", "maybe");
   check_message(folder.mms("explain E9999"), 2, "mms explain", "E9999");
   check_message(folder.mms("doc stdlb"), 2, "mms doc", "did you mean `stdlib`?");
-  check_message(folder.mms("eval --set positoin=1,2,3 1"), 2, "--set", "positoin");
-  check_message(folder.mms("eval --set position=1,2 1"), 2, "--set", "3 numbers");
+  check_message(folder.mms("eval --set 'positoin=[1,2,3]' 1"), 2, "--set",
+                "did you mean `$position`?");
+  check_message(folder.mms("eval --set 'position=[1,2]' 1"), 2, "--set $position", "real[3]");
 }
 
 #if MMS_RENDERER

@@ -67,6 +67,19 @@ Outcome Folder::mms(const std::string& args, const std::string& input) const {
   return outcome;
 }
 
+Outcome Folder::bash(const std::string& script) const {
+  const std::string logs = root_ + ".logs";
+  std::ofstream(logs + "/script", std::ios::binary) << script;
+  const std::string folder = fs::path(MMS_COMMAND).parent_path().string();
+  const std::string line = "cd '" + root_ + "' && PATH='" + folder + "':\"$PATH\" bash '" + logs +
+                           "/script' </dev/null >'" + logs + "/out' 2>'" + logs + "/err'";
+  Outcome outcome;
+  outcome.exit = exit_code(std::system(line.c_str()));
+  outcome.out = slurp(logs + "/out");
+  outcome.err = slurp(logs + "/err");
+  return outcome;
+}
+
 Outcome Folder::interrupted_render(const std::string& args, const std::string& script) const {
   const std::string logs = root_ + ".logs";
   const std::string line = "cd '" + root_ + "' && exec '" MMS_COMMAND "' render - " + args + " >'" +

@@ -31,6 +31,9 @@ class Folder {
   /// `mms ARGS` here, by the shell; `input` is its standard input.
   Outcome mms(const std::string& args, const std::string& input = "") const;
 
+  /// A bash script here, in which `mms` is the command.
+  Outcome bash(const std::string& script) const;
+
   /// `mms render - ARGS` here, sent SIGINT once it has begun to read `script`.
   Outcome interrupted_render(const std::string& args, const std::string& script) const;
 

@@ -46,3 +46,24 @@ TEST_CASE("every page that the README links to is there") {
   }
   CHECK(links >= 8);
 }
+
+TEST_CASE("the scripts of the tutorial and the README are laid out, and their examples hold") {
+  int examples = 0;
+  for (const std::string name : {"README.md", "docs/language.md"}) {
+    std::ifstream in(MMS_SOURCE_DIR "/" + name, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    text = text.substr(0, text.find("## Reference\n"));
+    const std::string open = "```mms\n";
+    for (std::size_t at = text.find(open); at != text.npos; at = text.find(open, at + 1)) {
+      const std::size_t begin = at + open.size();
+      const mms::cli::Folder folder;
+      folder.write("my.mms", text.substr(begin, text.find("```", begin) - begin));
+      INFO(name, "\n", folder.read("my.mms"));
+      CHECK(folder.mms("fmt --check my.mms").exit == 0);
+      if (folder.read("my.mms").find(">>>") == std::string::npos) continue;
+      CHECK(folder.mms("test my.mms").exit == 0);
+      ++examples;
+    }
+  }
+  CHECK(examples >= 1);
+}

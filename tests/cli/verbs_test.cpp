@@ -44,10 +44,11 @@ TEST_CASE("help and version") {
   CHECK(version.out.starts_with("mms "));
   const Outcome help = folder.mms("--help");
   CHECK(help.exit == 0);
-  for (const char* part : {"check", "render", "info", "eval", "disasm", "explain", "doc",
-                           "Exit codes", "Examples", "70", "130"})
+  for (const char* part : {"check", "render", "info", "eval", "disasm", "fmt", "test", "explain",
+                           "doc", "completion", "Exit codes", "Examples", "70", "130"})
     CHECK(contains(help.out, part));
-  for (const char* verb : {"check", "render", "info", "eval", "disasm", "explain", "doc"}) {
+  for (const char* verb :
+       {"check", "render", "info", "eval", "disasm", "fmt", "test", "explain", "doc"}) {
     const Outcome run = folder.mms(std::string(verb) + " --help");
     INFO(verb);
     CHECK(run.exit == 0);
@@ -59,7 +60,7 @@ TEST_CASE("check says nothing about a good script, from a file or standard input
   const Folder folder;
   folder.write("marble.mms", kMarble);
   for (const char* args : {"check marble.mms", "check -O0 marble.mms", "check -",
-                           "check --param scale=8 marble.mms", "check marble.mms marble.mms"}) {
+                           "check --set scale=8 marble.mms", "check marble.mms marble.mms"}) {
     const Outcome run = folder.mms(args, kMarble);
     INFO(args, run.err);
     CHECK(run.exit == 0);
@@ -127,13 +128,13 @@ TEST_CASE("eval prints values of every type") {
 }
 
 TEST_CASE("eval reads variables, files and standard input") {
-  CHECK(eval("'$position[1] * 2' --set position=1,2.5,3") == "5\n");
+  CHECK(eval("'$position[1] * 2' --set position=[1,2.5,3]") == "5\n");
   CHECK(eval("'$normal'") == "[0, 0, 1]\n");
   CHECK(eval("'$wavelength' --set wavelength=0.5") ==
         "spectrum(0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5)\n");
   CHECK(eval("-f - 'sq(7.0)'", "real sq(real x) = x * x;\n") == "49\n");
   CHECK(eval("-", "const real half = 0.5;\n") == "half = 0.5\n");
-  CHECK(eval("--param k=3 -f - 'k * 2'", "param integer k = 1;\n") == "6\n");
+  CHECK(eval("--set k=3 -f - 'k * 2'", "param integer k = 1;\n") == "6\n");
 }
 
 TEST_CASE("eval in double does not pass through float") {
@@ -157,15 +158,88 @@ TEST_CASE("info tells what a descriptor knows of itself") {
   CHECK(marble.at("line") == 3);
   const json& bsdf = marble.at("outputs").at("bsdf");
   CHECK(bsdf.at("stated") == true);
-  CHECK(bsdf.at("constant") == false);
+  CHECK(bsdf.at("rate") == "varying");
+  CHECK(bsdf.at("reciprocal") == true);
+  CHECK(bsdf.at("lobes").at(2) == json({{"name", "mix"}, {"traits", {"combiner"}}}));
   CHECK(bsdf.at("reads") == json({"$position"}));
   CHECK(bsdf.at("material") == "mix(matte, matte)");
   CHECK(marble.at("outputs").at("height").at("reads") == json({"$uv"}));
-  CHECK(marble.at("outputs").at("emission").at("constant") == true);
+  CHECK(marble.at("outputs").at("emission").at("rate") == "constant");
+  const json& displace = marble.at("entries").at("displace");
+  CHECK(displace.at("instructions") > 3);
+  CHECK(displace.at("recursion") == "none");
+  CHECK(displace.at("back_edges") == 0);
+  CHECK(marble.at("entries").at("emit").at("instructions") == 0);
   CHECK(marble.at("outputs").at("emission").at("stated") == false);
   const Outcome text = folder.mms("info marble.mms");
   CHECK(text.exit == 0);
   CHECK(contains(text.out, "surface marble  (marble.mms:3)\n"));
+}
+
+TEST_CASE("info tells uniform outputs, reciprocity and recursion") {
+  const Folder folder;
+  const Outcome run = folder.mms(
+      "info --format=json -",
+      "real fade(real x, integer n) = select x, if n <= 0; fade(x / 2, n - 1) otherwise end;\n"
+      "surface s\n  bsdf = matte(abs($view.z));\n  emission = $time;\n"
+      "  height = fade($uv.x, integer($uv.y));\n  gradient = [0, 0];\nend\n");
+  INFO(run.err);
+  REQUIRE(run.exit == 0);
+  const json info = json::parse(run.out);
+  CHECK(info.at("schema") == 1);
+  const json& s = info.at("descriptors").at(0);
+  CHECK(s.at("reciprocal") == false);
+  CHECK(s.at("outputs").at("bsdf").at("reciprocal") == false);
+  CHECK(s.at("outputs").at("emission").at("rate") == "uniform");
+  CHECK(s.at("entries").at("displace").at("recursion") == "tail");
+  CHECK(s.at("entries").at("displace").at("back_edges") == 1 << 20);
+}
+
+TEST_CASE("info and the page about it name the same members") {
+  const Folder folder;
+  folder.write("marble.mms", kMarble);
+  const json info = json::parse(folder.mms("info --format=json marble.mms").out);
+  const std::string page = folder.mms("doc info").out;
+  const json& d = info.at("descriptors").at(0);
+  for (const json* object : {&info, &d, &d.at("outputs").at("bsdf"), &d.at("entries").at("shade"),
+                             &info.at("params").at(0)})
+    for (const auto& [name, unused] : object->items()) {
+      INFO(name);
+      CHECK(contains(page, "`" + name + "`"));
+    }
+}
+
+TEST_CASE("disasm --dump-after prints the graph after a pass that runs") {
+  const Folder folder;
+  folder.write("s.mms", "const real a = 1 + 2;\nsurface s bsdf = matte($uv.x + 0.5); end\n");
+  const Outcome first = folder.mms("disasm -O1 --dump-after=fold s.mms");
+  const Outcome last = folder.mms("disasm -O1 --dump-after=dead-again s.mms");
+  INFO(first.err);
+  CHECK(first.exit == 0);
+  CHECK(contains(first.out, "PushInput"));
+  CHECK(contains(last.out, "PushInput"));
+  CHECK(last.out.size() < first.out.size());  // what folding leaves behind is dropped
+  const Outcome none = folder.mms("disasm -O0 --dump-after=fold s.mms");
+  CHECK(none.exit == 2);
+  CHECK(contains(none.err, "does not run at -O0"));
+  CHECK(folder.mms("disasm --dump-after=flod s.mms").exit == 2);
+  CHECK(contains(folder.mms("doc passes").out, "| `fold` | -O1 |"));
+}
+
+TEST_CASE("--deps lists what is imported: lines, a rule for make, or JSON") {
+  const Folder folder;
+  folder.write("a part.mms", "import \"deep.mms\";\nreal half() = deep / 2;\n");
+  folder.write("deep.mms", "real deep() = 1;\n");
+  folder.write("s.mms",
+               "import \"a part.mms\";\nimport \"noise\" as n;\n"
+               "surface s bsdf = matte(half); end\n");
+  for (const std::string verb : {"check", "info"}) {
+    CHECK(folder.mms(verb + " --deps s.mms").out == "a part.mms\ndeep.mms\n");
+    CHECK(folder.mms(verb + " --deps=make s.mms").out == "s.png: s.mms a\\ part.mms deep.mms\n");
+    CHECK(json::parse(folder.mms(verb + " --deps --format=json s.mms").out) ==
+          json({{"file", "s.mms"}, {"dependencies", {"a part.mms", "deep.mms"}}}));
+  }
+  CHECK(folder.mms("check --deps=html s.mms").exit == 2);
 }
 
 TEST_CASE("disasm prints the bytecode") {

@@ -16,7 +16,7 @@
 //   //   ^^^^ error E0203[: text]    a message about the line above, at just those columns
 //   //   vvvv warning W0401[: text]  a message about the line below
 //   // error E0311[: text]           a message without a place in this file
-//   // param: name=expression        links with that --param
+//   // param: name=expression        links with that value of a param
 //   // near: T            bound of |float - double| / max(1, |double|), instead of kNear
 //   // known-issue: text  in the first line: the script fails, and must be unmarked when it passes
 //
