@@ -119,10 +119,10 @@ class ProgramBuilder {
   ProgramBuilder(Elaborator& e, Diagnostics& d)
       : e_(e), diagnostics_(d), emitter_(e.module, program_) {}
 
-  vm::Program build(Level level) {
+  vm::Program build(const LinkOptions& options, std::string& dump) {
     std::vector<Outputs> outputs;
     for (ElaboratedDescriptor& d : e_.descriptors) outputs.push_back(gather(d));
-    optimise(e_.module, level);
+    dump = optimise(e_.module, options.level, options.dump_after);
     for (std::size_t i = 0; i < e_.descriptors.size(); ++i)
       descriptor(e_.descriptors[i], outputs[i]);
     for (const ElaboratedExport& x : e_.exports) {
@@ -251,8 +251,10 @@ std::optional<Linked> link(std::span<const Graph> graphs, const Library& library
   Elaborator elaborator(library, options, diagnostics);
   elaborator.run(graphs);
   if (diagnostics.has_errors()) return std::nullopt;
-  Linked linked{ProgramBuilder(elaborator, diagnostics).build(options.level),
-                std::move(elaborator.params), std::move(elaborator.dependencies)};
+  Linked linked;
+  linked.program = ProgramBuilder(elaborator, diagnostics).build(options, linked.dump);
+  linked.params = std::move(elaborator.params);
+  linked.dependencies = std::move(elaborator.dependencies);
   if (const auto fault = vm::verify(linked.program))
     throw std::logic_error("emitted code does not verify: " + fault->function + ": " + fault->what);
   return linked;

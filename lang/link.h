@@ -32,14 +32,17 @@ enum class Level : std::uint8_t { O0, O1, O2 };
 
 struct LinkOptions {
   Level level = Level::O2;
+  std::string dump_after;                                   ///< `Linked::dump`: a name of passes()
   std::vector<std::string> import_path;                     ///< `-I`, in order
   std::vector<std::pair<std::string, std::string>> params;  ///< `--param name=expression`
 };
 
-/// A pass of the optimiser: what `--dump-after` and the manual print.
+/// A pass from graphs to bytecode: what `--dump-after` and the manual print.
 struct PassInfo {
   std::string_view name, doc;
+  Level from;  ///< the lowest level that runs it
 };
+/// All passes, in the order in which they run.
 std::span<const PassInfo> passes();
 
 /// One `param` of the scripts, as an authoring tool shows it.
@@ -53,6 +56,8 @@ struct Linked {
   vm::Program program;
   std::vector<ParamInfo> params;
   std::vector<std::string> dependencies;  ///< imported files
+  std::string dump;  ///< every function after the pass `dump_after`; empty where no pass that
+                     ///< runs at the level has that name
 };
 
 /// Links `graphs` (and what they import) into a program, or says why not.

@@ -2,10 +2,11 @@
 #include "lang/optimise.h"
 
 #include <algorithm>
-#include <cassert>
 #include <map>
+#include <stdexcept>
 #include <tuple>
-#include <unordered_map>
+
+#include <fmt/format.h>
 
 namespace mms::lang {
 namespace {
@@ -231,19 +232,34 @@ IrFunction convert_ifs(const Module& m, IrFunction f) {
 }
 
 constexpr Pass kPipeline[] = {
+    {{"inline",
+      "inline every call, specialise generics, lambdas and materials; only recursion whose end "
+      "depends on the hit is left as a function",
+      Level::O0},
+     nullptr},
     {{"fold",
-      "replace what is known at link time by constants, computed with the machine's kernels"},
-     Level::O1,
+      "replace what is known at link time by constants, computed with the machine's kernels",
+      Level::O1},
      fold_known},
-    {{"dead", "drop values nobody reads"}, Level::O0, remove_dead},
-    {{"share", "compute equal pure expressions once"}, Level::O1, share},
-    {{"simplify", "apply identities that hold for every float"}, Level::O2, simplify},
-    {{"if-convert", "compute both sides of a cheap choice instead of branching"},
-     Level::O2,
+    {{"dead", "drop values nobody reads", Level::O0}, remove_dead},
+    {{"share", "compute equal pure expressions once", Level::O1}, share},
+    {{"simplify", "apply identities that hold for every float", Level::O2}, simplify},
+    {{"if-convert", "compute both sides of a cheap choice instead of branching", Level::O2},
      convert_ifs},
-    {{"share-again", "compute once what the last passes made equal"}, Level::O2, share},
-    {{"dead-again", "drop what the last passes left behind"}, Level::O1, remove_dead},
+    {{"share-again", "compute once what the last passes made equal", Level::O2}, share},
+    {{"dead-again", "drop what the last passes left behind", Level::O1}, remove_dead},
 };
+
+/// What a pass left of `f` is a graph that the next one may trust; looked at where assertions are.
+void recheck(const Module& m, const IrFunction& f, const Pass& p) {
+#if !defined(NDEBUG) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  if (const std::string fault = check_ir(m, f); !fault.empty())
+    throw std::logic_error(
+        fmt::format("after the pass {}: {}\n{}", p.info.name, fault, dump(m, f)));
+#else
+  (void)m, (void)f, (void)p;
+#endif
+}
 
 }  // namespace
 
@@ -258,15 +274,18 @@ std::span<const PassInfo> passes() {
   return infos;
 }
 
-void optimise(Module& module, Level level) {
+std::string optimise(Module& module, Level level, std::string_view dump_after) {
+  std::string text;
   for (IrFunction& f : module.functions) {
     if (f.results.empty()) continue;
     for (const Pass& p : kPipeline) {
-      if (level < p.from) continue;
-      f = p.run(module, std::move(f));
-      assert(check(module, f).empty());
+      if (level < p.info.from) continue;
+      if (p.run) f = p.run(module, std::move(f));
+      recheck(module, f, p);
+      if (p.info.name == dump_after) text += dump(module, f);
     }
   }
+  return text;
 }
 
 }  // namespace mms::lang

@@ -12,14 +12,14 @@ namespace mms::lang {
 
 struct Pass {
   PassInfo info;
-  Level from;  ///< the lowest level that runs it
-  IrFunction (*run)(const Module&, IrFunction);
+  IrFunction (*run)(const Module&, IrFunction);  ///< null: done before, while the graph was made
 };
 
 /// The pipeline, in order.
 std::span<const Pass> pipeline();
 
-/// Runs the passes of `level` over every function.
-void optimise(Module& module, Level level);
+/// Runs the passes of `level` over every function; the text of all of them after the pass named
+/// `dump_after`. Builds with assertions or sanitizers check every function after every pass.
+std::string optimise(Module& module, Level level, std::string_view dump_after = {});
 
 }  // namespace mms::lang

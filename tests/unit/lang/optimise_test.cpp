@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/optimise.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "lang/parser.h"
+
+using namespace mms::lang;
+using mms::vm::Op;
+using mms::vm::SlotType;
+
+namespace {
+
+/// One function of one real parameter `x` that returns x (x + 1), with the constant 1.
+Module square_and_more() {
+  Module m;
+  m.constant({SlotType::Real, 1, 1, 0});
+  IrFunction f;
+  f.name = "f";
+  f.params = {SlotType::Real};
+  const Ref x = add_node(f, 0, {Op::LoadLocal, 0, 0, {}, {SlotType::Real}, {}, -1});
+  const Ref one = add_node(f, 0, {Op::PushConst, 0, 0, {}, {SlotType::Real}, {}, 0});
+  const Ref sum = add_node(f, 0, {Op::AddR, 0, 0, {x, one}, {}, {}, -1});
+  f.results = {add_node(f, 0, {Op::MulR, 0, 0, {x, sum}, {}, {}, -1})};
+  m.functions.push_back(std::move(f));
+  return m;
+}
+
+std::string fault(void (*broken)(Module&)) {
+  Module m = square_and_more();
+  broken(m);
+  return check_ir(m, m.functions[0]);
+}
+
+bool has(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a sound graph has no fault") {
+  const Module m = square_and_more();
+  CHECK(check_ir(m, m.functions[0]).empty());
+}
+
+TEST_CASE("every kind of broken graph is found") {
+  CHECK(has(fault([](Module& m) { m.functions[0].nodes[2].args.pop_back(); }), "takes `rr`"));
+  CHECK(has(fault([](Module& m) { m.functions[0].nodes[2].op = Op::And; }), "takes `ll`"));
+  CHECK(has(fault([](Module& m) { m.functions[0].nodes[2].results = {SlotType::Logic}; }),
+            "gives `r`, marked `l`"));
+  CHECK(has(fault([](Module& m) { m.functions[0].nodes[2].args[0] = {3, 0, 0}; }), "comes later"));
+  CHECK(has(fault([](Module& m) { m.functions[0].nodes[2].args[0] = {9, 0, 0}; }), "not there"));
+  CHECK(has(fault([](Module& m) { m.functions[0].nodes[2].args[0].result = 1; }), "not there"));
+  CHECK(has(fault([](Module& m) { m.functions[0].nodes[0].a = 1; }), "operand 1"));
+  CHECK(has(fault([](Module& m) { m.functions[0].nodes[1].a = 7; }), "operand 7"));
+  CHECK(has(fault([](Module& m) { m.functions[0].nodes[2].known = 7; }), "constant 7"));
+  CHECK(has(fault([](Module& m) {
+              m.constants[0].type = SlotType::Integer;
+              m.functions[0].nodes[1].results = {SlotType::Integer};
+              m.functions[0].nodes[2].op = Op::AddI;
+            }),
+            "takes `ii`, found `ri`"));
+  CHECK(has(fault([](Module& m) { m.functions[0].nodes[3].op = Op::Return; }), "no operation"));
+  CHECK(has(fault([](Module& m) { m.functions[0].results = {{4, 0, 0}}; }), "result %4"));
+}
+
+TEST_CASE("passes have names of their own and a sentence; higher levels only add passes") {
+  std::set<std::string_view> names;
+  for (const PassInfo& p : passes()) {
+    CAPTURE(p.name);
+    CHECK(names.insert(p.name).second);
+    CHECK(p.doc.size() > 20);
+    CHECK(p.from <= Level::O2);
+  }
+  CHECK(names.contains("fold"));
+}
+
+TEST_CASE("a pass is dumped by its name, at the levels that run it") {
+  const SourcePtr source = make_source("t", "real v() = $position[0];\nreal f() = v() * 1;\n");
+  Diagnostics diagnostics;
+  const Graph graph = parse(source, diagnostics);
+  const auto dump_of = [&](Level level, std::string_view pass) {
+    LinkOptions options;
+    options.level = level;
+    options.dump_after = pass;
+    const auto linked = link({&graph, 1}, {}, options, diagnostics);
+    REQUIRE(linked);
+    return linked->dump;
+  };
+  CHECK(has(dump_of(Level::O0, "dead"), "MulR"));
+  CHECK(dump_of(Level::O0, "simplify").empty());
+  CHECK_FALSE(has(dump_of(Level::O2, "dead-again"), "MulR"));
+  CHECK(dump_of(Level::O2, "no-such-pass").empty());
+  CHECK(dump_of(Level::O2, "").empty());
+}
