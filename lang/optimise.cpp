@@ -237,11 +237,11 @@ constexpr Pass kPipeline[] = {
       "depends on the hit is left as a function",
       Level::O0},
      nullptr},
+    {{"dead", "drop values nobody reads", Level::O0}, remove_dead},
     {{"fold",
       "replace what is known at link time by constants, computed with the machine's kernels",
       Level::O1},
      fold_known},
-    {{"dead", "drop values nobody reads", Level::O0}, remove_dead},
     {{"share", "compute equal pure expressions once", Level::O1}, share},
     {{"simplify", "apply identities that hold for every float", Level::O2}, simplify},
     {{"if-convert", "compute both sides of a cheap choice instead of branching", Level::O2},
@@ -280,8 +280,10 @@ std::string optimise(Module& module, Level level, std::string_view dump_after) {
     if (f.results.empty()) continue;
     for (const Pass& p : kPipeline) {
       if (level < p.info.from) continue;
-      if (p.run) f = p.run(module, std::move(f));
-      recheck(module, f, p);
+      if (p.run) {
+        f = p.run(module, std::move(f));
+        recheck(module, f, p);
+      }
       if (p.info.name == dump_after) text += dump(module, f);
     }
   }
