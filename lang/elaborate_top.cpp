@@ -347,6 +347,7 @@ void Elaborator::outputs(ElaboratedDescriptor& e, Scope* scope) {
 
 void Elaborator::run(std::span<const Graph> graphs) {
   load_library();
+  if (options_.stage_done) options_.stage_done("library");
   program_scope_ = new_scope(library_scope_);
   function_ = new_function("params");
   for (const Graph& g : graphs)  // an import of one of these is no other file

@@ -122,7 +122,7 @@ class ProgramBuilder {
   vm::Program build(const LinkOptions& options, std::string& dump) {
     std::vector<Outputs> outputs;
     for (ElaboratedDescriptor& d : e_.descriptors) outputs.push_back(gather(d));
-    dump = optimise(e_.module, options.level, options.dump_after);
+    dump = optimise(e_.module, options);
     for (std::size_t i = 0; i < e_.descriptors.size(); ++i)
       descriptor(e_.descriptors[i], outputs[i]);
     for (const ElaboratedExport& x : e_.exports) {
@@ -239,6 +239,9 @@ class ProgramBuilder {
 std::optional<Linked> link(std::span<const Graph> graphs, const Library& library,
                            const LinkOptions& options, Diagnostics& diagnostics) {
   if (diagnostics.has_errors()) return std::nullopt;
+  auto done = [&](std::string_view stage) {
+    if (options.stage_done) options.stage_done(stage);
+  };
   for (const Graph& g : graphs) {
     const bool empty = g.descriptors.empty() && g.top_functions.empty() && g.constants.empty() &&
                        g.type_definitions.empty() && g.params.empty() && g.imports.empty() &&
@@ -248,14 +251,19 @@ std::optional<Linked> link(std::span<const Graph> graphs, const Library& library
           .help("begin with `surface grey bsdf = matte(0.5); end`");
     lint(g, diagnostics);
   }
+  done("lint");
   Elaborator elaborator(library, options, diagnostics);
   elaborator.run(graphs);
   if (diagnostics.has_errors()) return std::nullopt;
+  done("elaborate");
   Linked linked;
   linked.program = ProgramBuilder(elaborator, diagnostics).build(options, linked.dump);
   linked.params = std::move(elaborator.params);
   linked.dependencies = std::move(elaborator.dependencies);
-  if (const auto fault = vm::verify(linked.program))
+  done("emit");
+  const auto fault = vm::verify(linked.program);
+  done("verify");
+  if (fault)
     throw std::logic_error("emitted code does not verify: " + fault->function + ": " + fault->what);
   return linked;
 }

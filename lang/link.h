@@ -30,11 +30,16 @@ struct Library {
 
 enum class Level : std::uint8_t { O0, O1, O2 };
 
+/// Called when a stage of the linker (`lint`, `library`, `elaborate`, a pass, `emit`, `verify`) is
+/// done: for measuring.
+using StageDone = std::function<void(std::string_view stage)>;
+
 struct LinkOptions {
   Level level = Level::O2;
   std::string dump_after;                                   ///< `Linked::dump`: a name of passes()
   std::vector<std::string> import_path;                     ///< `-I`, in order
   std::vector<std::pair<std::string, std::string>> params;  ///< `--param name=expression`
+  StageDone stage_done;                                     ///< may be empty
 };
 
 /// A pass from graphs to bytecode: what `--dump-after` and the manual print.

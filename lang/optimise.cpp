@@ -274,18 +274,19 @@ std::span<const PassInfo> passes() {
   return infos;
 }
 
-std::string optimise(Module& module, Level level, std::string_view dump_after) {
+std::string optimise(Module& module, const LinkOptions& options) {
   std::string text;
-  for (IrFunction& f : module.functions) {
-    if (f.results.empty()) continue;
-    for (const Pass& p : kPipeline) {
-      if (level < p.info.from) continue;
+  for (const Pass& p : kPipeline) {
+    if (options.level < p.info.from) continue;
+    for (IrFunction& f : module.functions) {
+      if (f.results.empty()) continue;
       if (p.run) {
         f = p.run(module, std::move(f));
         recheck(module, f, p);
       }
-      if (p.info.name == dump_after) text += dump(module, f);
+      if (p.info.name == options.dump_after) text += dump(module, f);
     }
+    if (p.run && options.stage_done) options.stage_done(p.info.name);
   }
   return text;
 }

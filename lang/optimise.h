@@ -18,8 +18,8 @@ struct Pass {
 /// The pipeline, in order.
 std::span<const Pass> pipeline();
 
-/// Runs the passes of `level` over every function; the text of all of them after the pass named
-/// `dump_after`. Builds with assertions or sanitizers check every function after every pass.
-std::string optimise(Module& module, Level level, std::string_view dump_after = {});
+/// Runs the passes of the level over every function; the text of all of them after the pass that
+/// is to be dumped. Builds with assertions or sanitizers check every function after every pass.
+std::string optimise(Module& module, const LinkOptions& options);
 
 }  // namespace mms::lang
