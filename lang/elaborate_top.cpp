@@ -25,13 +25,6 @@ constexpr vm::DescriptorForm form_of(Descriptor::Form form) {
                                            : vm::DescriptorForm::Volume;
 }
 
-std::string_view row_name(std::string_view signature) {
-  const std::size_t end = signature.find('(');
-  std::size_t begin = end;
-  while (begin > 0 && signature[begin - 1] != ' ') --begin;
-  return signature.substr(begin, end - begin);
-}
-
 std::optional<std::string> read_file(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
@@ -58,36 +51,6 @@ std::uint32_t Elaborator::source_index(const Source* s) {
 vm::SourceLine Elaborator::line_of(Span s) {
   if (!s.source) return line_;
   return {source_index(s.source), position_at(*s.source, s.begin).line};
-}
-
-void Elaborator::load_library() {
-  library_scope_ = new_scope(nullptr, true);
-  auto add_row = [](Scope* scope, const vm::Builtin& row) {
-    Binding& b = scope->names[std::string(row_name(row.signature))];
-    b.form = Binding::Form::Functions;
-    b.library = true;
-    b.rows.push_back(&row);
-  };
-  for (const vm::Builtin& row : library_.builtins) {
-    add_row(library_scope_, row);
-    Scope*& m = modules_[std::string(row.module)];
-    if (!m) m = new_scope(nullptr, true);
-    add_row(m, row);
-  }
-  for (const Library::Module& m : library_.modules) load_module(m);
-}
-
-void Elaborator::load_module(const Library::Module& m) {
-  graphs_.push_back(
-      parse(make_source(fmt::format("<{}>", m.name), std::string(m.text)), diagnostics_));
-  const Graph& graph = graphs_.back();
-  declare_items(graph, library_scope_);
-  Scope*& scope = modules_[std::string(m.name)];
-  if (!scope) scope = new_scope(nullptr, true);
-  auto copy = [&](const std::string& name) { scope->names[name] = library_scope_->names[name]; };
-  for (FunctionHandle h : graph.top_functions) copy(graph[h].name.text);
-  for (const Constant& k : graph.constants) copy(k.name.text);
-  for (const TypeDefinition& t : graph.type_definitions) copy(t.name.text);
 }
 
 void Elaborator::declare_items(const Graph& graph, Scope* scope) {

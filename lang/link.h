@@ -21,9 +21,15 @@ namespace mms::lang {
 /// What scripts may call: rows written in C++, and modules written in the language itself.
 struct Library {
   std::span<const vm::Builtin> builtins;
+  /// A definition at the top level of a module: `name`, at [begin, end) of its text.
+  struct Item {
+    std::string_view name;
+    std::uint32_t begin, end;
+  };
   struct Module {
     std::string_view name;  ///< `noise`
     std::string_view text;
+    std::span<const Item> items = {};  ///< all of them; none: they are looked for at every link
   };
   std::span<const Module> modules;
 };
