@@ -50,7 +50,7 @@ std::uint32_t Elaborator::source_index(const Source* s) {
 
 vm::SourceLine Elaborator::line_of(Span s) {
   if (!s.source) return line_;
-  return {source_index(s.source), position_at(*s.source, s.begin).line};
+  return {source_index(s.source), line_at(*s.source, s.begin)};
 }
 
 void Elaborator::declare_items(const Graph& graph, Scope* scope) {
@@ -330,10 +330,15 @@ void Elaborator::run(std::span<const Graph> graphs) {
     for (const Constant& k : g.constants) check_constant(g, k, program_scope_);
     for (const Descriptor& d : g.descriptors) descriptor(g, d, program_scope_);
   }
-  for (std::size_t i = 0; i < decls_.size(); ++i) {  // checking may add nested ones
-    FunctionDecl& d = decls_[i];
-    if (!d.library && d.scope == program_scope_) check_function(&d);
-  }
+  // Functions without formals are exported, in order. Of the others the last are checked first: a
+  // check inlines what it calls, and that needs no check of its own then.
+  const std::size_t count = decls_.size();  // checking may add nested ones
+  auto check = [&](FunctionDecl& d, bool formals) {
+    if (d.library || d.scope != program_scope_ || d.function().formals.empty() == formals) return;
+    if (!formals || !d.checked) check_function(&d);
+  };
+  for (std::size_t i = 0; i < count; ++i) check(decls_[i], false);
+  for (std::size_t i = count; i-- > 0;) check(decls_[i], true);
 }
 
 }  // namespace mms::lang

@@ -30,6 +30,7 @@ struct FunctionDecl {
   Scope* scope = nullptr;
   bool library = false;
   bool recursive = false;  ///< it was seen to call itself under a condition known only at run time
+  bool checked = false;    ///< its body was seen whole, with arguments that nobody knew
   const Function& function() const { return (*graph)[handle]; }
 };
 
