@@ -264,6 +264,10 @@ IrFunction convert_ifs(const Module& m, IrFunction f) {
     for (std::size_t k = 0; k < count; ++k) {
       const std::vector<Ref> args{w.at(n.args[0]), w.at(n.args[1 + k]),
                                   w.at(n.args[1 + count + k])};
+      if (args[1] == args[2]) {
+        w.put(i, k, args[1]);
+        continue;
+      }
       w.put(i, k,
             add_node(w.out, number_of(f), {select_of(n.results[k]), 0, 0, args, {}, n.line, -1}));
     }

@@ -104,11 +104,11 @@ TEST_CASE("a pass is dumped by its name, at the levels that run it") {
 
 namespace {
 
-using mms::vm::Constant;
+using Known = mms::vm::Constant;
 
-Constant real(float x) { return {SlotType::Real, x, static_cast<double>(x), 0}; }
+Known real(float x) { return {SlotType::Real, x, static_cast<double>(x), 0}; }
 
-bool same_bits(const Constant& a, const Constant& b) {
+bool same_bits(const Known& a, const Known& b) {
   return std::bit_cast<std::uint32_t>(a.f32) == std::bit_cast<std::uint32_t>(b.f32) &&
          std::bit_cast<std::uint64_t>(a.f64) == std::bit_cast<std::uint64_t>(b.f64);
 }
@@ -139,17 +139,17 @@ bool stays(const std::string& expression, std::string_view op) {
 }  // namespace
 
 TEST_CASE("what is rewritten is the same for every float, bit for bit") {
-  const Constant one = real(1);
+  const Known one = real(1);
   int wrong = 0;
-  for_floats([&](const Constant& x) {
-    const Constant rewritten[] = {
+  for_floats([&](const Known& x) {
+    const Known rewritten[] = {
         *fold(Op::MulR, std::array{x, one}),
         *fold(Op::MulR, std::array{one, x}),
         *fold(Op::DivR, std::array{x, one}),
         *fold(Op::NegR, std::array{*fold(Op::NegR, std::array{x})}),
-        *fold(Op::SelectR, std::array{Constant{SlotType::Logic, 0, 0, 0}, x, x}),
-        *fold(Op::SelectR, std::array{Constant{SlotType::Logic, 0, 0, 1}, x, x})};
-    for (const Constant& r : rewritten) wrong += !same_bits(r, x);
+        *fold(Op::SelectR, std::array{Known{SlotType::Logic, 0, 0, 0}, x, x}),
+        *fold(Op::SelectR, std::array{Known{SlotType::Logic, 0, 0, 1}, x, x})};
+    for (const Known& r : rewritten) wrong += !same_bits(r, x);
   });
   CHECK(wrong == 0);
   CHECK_FALSE(stays("v() * 1", "MulR"));
