@@ -245,10 +245,10 @@ void Elaborator::export_value(const std::string& name, const Value& v) {
 }
 
 void Elaborator::descriptor(const Graph& graph, const Descriptor& d, Scope* scope) {
-  for (const ElaboratedDescriptor& other : descriptors)
-    if (other.syntax->form == d.form && other.syntax->name.text == d.name.text)
-      diagnostics_.add(Diag::Redefined, d.name.span, d.name.text)
-          .note(other.syntax->name.span, "first defined here");
+  const auto [first, is_new] = descriptor_names_.try_emplace({d.form, d.name.text}, d.name.span);
+  if (!is_new)
+    diagnostics_.add(Diag::Redefined, d.name.span, d.name.text)
+        .note(first->second, "first defined here");
   function_ =
       new_function((d.form == Descriptor::Form::Surface ? "surface " : "volume ") + d.name.text);
   ElaboratedDescriptor e;

@@ -264,6 +264,7 @@ class Elaborator {
   std::map<const Source*, std::uint32_t> source_index_;
   std::map<std::pair<std::uint16_t, int>, std::uint16_t> derived_;  ///< by function and direction
   Span deriving_;  ///< the height that is being differentiated
+  std::map<std::pair<Descriptor::Form, std::string_view>, Span> descriptor_names_;
   Scope* library_scope_ = nullptr;
   Scope* program_scope_ = nullptr;
 
