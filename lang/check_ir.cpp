@@ -29,6 +29,8 @@ bool operand_in_range(const Module& m, const IrFunction& f, const Node& n) {
       return n.a < m.functions.size();
     case vm::OperandForm::Builtin:
       return n.a < m.builtins.size();
+    case vm::OperandForm::Wavelength:
+      return n.a < static_cast<std::uint32_t>(kWavelengths);
     default:
       return true;
   }
