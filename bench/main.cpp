@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The benchmarks of the machine: prints its tables and writes docs/performance.md.
+// The benchmarks of the machine: prints its tables and writes its part of docs/performance.md.
 //
 //   bench_shaders [--rounds N] [--only NAME] [--no-document]
 #include <fmt/core.h>
@@ -9,11 +9,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <string_view>
 #include <thread>
 
 #include "api/library.h"
+#include "bench/document.h"
 #include "bench/report.h"
 #include "lang/parser.h"
 #include "vm/lower.h"
@@ -201,11 +201,7 @@ int run(const Options& options) {
   }
   fmt::print("{}", tables(results));
   if (!options.write) return 0;
-  const std::string path = MMS_SOURCE_DIR "/docs/performance.md";
-  std::ofstream file(path);
-  file << document(results);
-  if (!file.flush()) return fmt::print(stderr, "error: cannot write {}\n", path), 1;
-  return 0;
+  return write_part("shaders", document(results)) ? 0 : 1;
 }
 
 }  // namespace

@@ -186,7 +186,7 @@ std::string tables(const Results& r) {
 }
 
 std::string document(const Results& r) {
-  std::string d = "# Performance\n\nWritten by `./run bench`; do not edit.\n\n## Machine\n\n";
+  std::string d = "## Machine\n\n";
   d += fmt::format("{}, {} hardware threads; {}. Load average when the run ended: {}.\n\n",
                    processor(), std::thread::hardware_concurrency(), compilers(), load());
   std::string method = kMethod;

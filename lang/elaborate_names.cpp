@@ -177,12 +177,12 @@ Binding* Elaborator::find(Context c, const Path& path) {
 
 std::vector<std::string> Elaborator::visible_names(Scope* scope) {
   std::vector<std::string> names;
-  auto add = [&](const Scope* s) {
+  auto add = [&](Scope* s) {
     for (const auto& [name, binding] : s->names) names.push_back(name);
   };
   for (Scope* s = scope; s; s = s->parent) {
     add(s);
-    for (const Scope* i : s->imports) add(i);
+    for (Scope* i : s->imports) add(i);
   }
   return names;
 }

@@ -69,6 +69,7 @@ Value Elaborator::invoke(FunctionDecl* d, const std::vector<Value>& formals, con
     return call_instance(d, formals, g, result, span);
   }
   frames_.resize(depth);
+  if (!v.poison() && !any_known(formals)) d->checked = true;
   return v;
 }
 

@@ -25,13 +25,6 @@ constexpr vm::DescriptorForm form_of(Descriptor::Form form) {
                                            : vm::DescriptorForm::Volume;
 }
 
-std::string_view row_name(std::string_view signature) {
-  const std::size_t end = signature.find('(');
-  std::size_t begin = end;
-  while (begin > 0 && signature[begin - 1] != ' ') --begin;
-  return signature.substr(begin, end - begin);
-}
-
 std::optional<std::string> read_file(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
@@ -57,37 +50,7 @@ std::uint32_t Elaborator::source_index(const Source* s) {
 
 vm::SourceLine Elaborator::line_of(Span s) {
   if (!s.source) return line_;
-  return {source_index(s.source), position_at(*s.source, s.begin).line};
-}
-
-void Elaborator::load_library() {
-  library_scope_ = new_scope(nullptr, true);
-  auto add_row = [](Scope* scope, const vm::Builtin& row) {
-    Binding& b = scope->names[std::string(row_name(row.signature))];
-    b.form = Binding::Form::Functions;
-    b.library = true;
-    b.rows.push_back(&row);
-  };
-  for (const vm::Builtin& row : library_.builtins) {
-    add_row(library_scope_, row);
-    Scope*& m = modules_[std::string(row.module)];
-    if (!m) m = new_scope(nullptr, true);
-    add_row(m, row);
-  }
-  for (const Library::Module& m : library_.modules) load_module(m);
-}
-
-void Elaborator::load_module(const Library::Module& m) {
-  graphs_.push_back(
-      parse(make_source(fmt::format("<{}>", m.name), std::string(m.text)), diagnostics_));
-  const Graph& graph = graphs_.back();
-  declare_items(graph, library_scope_);
-  Scope*& scope = modules_[std::string(m.name)];
-  if (!scope) scope = new_scope(nullptr, true);
-  auto copy = [&](const std::string& name) { scope->names[name] = library_scope_->names[name]; };
-  for (FunctionHandle h : graph.top_functions) copy(graph[h].name.text);
-  for (const Constant& k : graph.constants) copy(k.name.text);
-  for (const TypeDefinition& t : graph.type_definitions) copy(t.name.text);
+  return {source_index(s.source), line_at(*s.source, s.begin)};
 }
 
 void Elaborator::declare_items(const Graph& graph, Scope* scope) {
@@ -299,10 +262,10 @@ void Elaborator::export_value(const std::string& name, const Value& v) {
 
 void Elaborator::descriptor(const NamedDescriptor& named) {
   const Descriptor& d = *named.syntax;
-  for (const ElaboratedDescriptor& other : descriptors)
-    if (other.syntax->form == d.form && other.name == named.name)
-      diagnostics_.add(Diag::Redefined, d.name.span, named.name)
-          .note(other.syntax->name.span, "first defined here");
+  const auto [first, is_new] = descriptor_names_.try_emplace({d.form, named.name}, d.name.span);
+  if (!is_new)
+    diagnostics_.add(Diag::Redefined, d.name.span, named.name)
+        .note(first->second, "first defined here");
   function_ =
       new_function((d.form == Descriptor::Form::Surface ? "surface " : "volume ") + named.name);
   ElaboratedDescriptor e;
@@ -365,6 +328,7 @@ void Elaborator::outputs(ElaboratedDescriptor& e, Scope* scope) {
 
 void Elaborator::run(std::span<const Graph> graphs) {
   load_library();
+  if (options_.stage_done) options_.stage_done("library");
   program_scope_ = new_scope(library_scope_);
   function_ = new_function("params");
   for (const Graph& g : graphs)  // an import of one of these is no other file
@@ -391,10 +355,15 @@ void Elaborator::run(std::span<const Graph> graphs) {
   }
   for (const NamedDescriptor& d : program_scope_->descriptors) descriptor(d);
   check_definitions();
-  for (std::size_t i = 0; i < decls_.size(); ++i) {  // checking may add nested ones
-    FunctionDecl& d = decls_[i];
-    if (d.scope->file) check_function(&d);
-  }
+  // Functions without formals are exported, in order. Of the others the last are checked first: a
+  // check inlines what it calls, and that needs no check of its own then.
+  const std::size_t count = decls_.size();  // checking may add nested ones
+  auto check = [&](FunctionDecl& d, bool formals) {
+    if (!d.scope->file || d.function().formals.empty() == formals) return;
+    if (!formals || !d.checked) check_function(&d);
+  };
+  for (std::size_t i = 0; i < count; ++i) check(decls_[i], false);
+  for (std::size_t i = count; i-- > 0;) check(decls_[i], true);
 }
 
 }  // namespace mms::lang

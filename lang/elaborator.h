@@ -10,7 +10,7 @@
 /// The class is one; its members are implemented by theme: elaborate_names.cpp (scopes, types),
 /// elaborate_values.cpp (nodes, conversions, operators), elaborate_expr.cpp (expressions),
 /// elaborate_call.cpp (overloads), elaborate_recursion.cpp (inlining), elaborate_top.cpp (items,
-/// descriptors), derive.cpp (derivatives).
+/// descriptors), library.cpp (names of the library), derive.cpp (derivatives).
 
 #include <climits>
 #include <deque>
@@ -286,7 +286,23 @@ class Elaborator {
   bool is_generic(Context c, const Function& f);
 
   // --- items and descriptors (elaborate_top.cpp) ---
+  // --- the library (library.cpp) ---
+  struct LibraryName {  ///< one row, or one definition of a module
+    std::string_view name;
+    std::string_view module;
+    const vm::Builtin* row = nullptr;
+    const Library::Module* text = nullptr;
+    const Library::Item* item = nullptr;
+    bool made = false;  ///< of the first one of a name: its binding has been made
+  };
   void load_library();
+  void load_module(const Library::Module& m);
+  std::span<LibraryName> library_names(std::string_view name);
+  void make_library_name(std::string_view name);
+  void make_module_name(const std::string& module, std::string_view name);
+  void define(const LibraryName& n);
+
+  // --- items and descriptors (elaborate_top.cpp) ---
   void add_graph(const Graph& graph, Scope* scope);
   void import(const Graph& from, const Import& i, Scope* scope);
   void add_params(const Graph& graph, Scope* scope);
@@ -299,7 +315,6 @@ class Elaborator {
   void check_constant(const Graph& graph, const Constant& k, Scope* scope);
   void descriptor(const NamedDescriptor& d);
   void outputs(ElaboratedDescriptor& e, Scope* scope);
-  void load_module(const Library::Module& m);
   void declare_items(const Graph& graph, Scope* scope);
   void export_value(const std::string& name, const Value& v);
   std::uint16_t new_function(std::string name);
@@ -325,6 +340,8 @@ class Elaborator {
   };
   std::vector<DeclaredParam> declared_params_;
   std::map<std::string, Scope*, std::less<>> modules_;
+  std::vector<LibraryName> library_names_;  ///< sorted by name
+  std::map<const Library::Module*, SourcePtr> module_sources_;
   std::map<const vm::Builtin*, std::unique_ptr<Signature>> signatures_;
   std::map<std::string, Instance> instances_;
   std::map<std::uint16_t, Instance*> instance_of_;
@@ -332,6 +349,7 @@ class Elaborator {
   std::map<std::pair<std::uint16_t, int>, std::uint16_t> derived_;  ///< by function and direction
   Deriving deriving_;
   Span user_span_;  ///< where a script called the function of the library that is being inlined
+  std::map<std::pair<Descriptor::Form, std::string>, Span> descriptor_names_;
   Scope* library_scope_ = nullptr;
   Scope* program_scope_ = nullptr;
 

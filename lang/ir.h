@@ -73,7 +73,10 @@ std::vector<vm::SlotType> pushed_types(vm::Op op);
 /// Text of one function, for `--dump-after`.
 std::string dump(const Module& module, const IrFunction& f);
 
-/// What is wrong with the graph, or empty: run after every pass in debug builds.
-std::string check(const Module& module, const IrFunction& f);
+/// What is wrong with the graph, or empty: operands in range, argument and result types as the
+/// opcode table and the signatures say, arguments before what uses them (leaves may stand
+/// anywhere), known values of the right type. That each value is defined once needs no check: a
+/// value is a place in the list of nodes.
+std::string check_ir(const Module& module, const IrFunction& f);
 
 }  // namespace mms::lang

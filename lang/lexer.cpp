@@ -82,9 +82,12 @@ Tok keyword(std::string_view word) {
   return Tok::Identifier;
 }
 
-Lexer::Lexer(const Source& source, Diagnostics& diagnostics)
-    : source_(source), text_(source.text), diagnostics_(diagnostics) {
-  if (text_.starts_with("\xEF\xBB\xBF")) pos_ = 3;  // a byte-order mark says nothing
+Lexer::Lexer(const Source& source, Diagnostics& diagnostics, std::uint32_t begin, std::uint32_t end)
+    : source_(source),
+      text_(std::string_view(source.text).substr(0, end)),
+      diagnostics_(diagnostics),
+      pos_(begin) {
+  if (begin == 0 && text_.starts_with("\xEF\xBB\xBF")) pos_ = 3;  // a byte-order mark says nothing
 }
 
 Span Lexer::span(std::size_t begin, std::size_t end) const {

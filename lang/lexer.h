@@ -16,8 +16,9 @@ namespace mms::lang {
 
 class Lexer {
  public:
-  /// Borrows both; `source` is at most limits::kSourceBytes long.
-  Lexer(const Source& source, Diagnostics& diagnostics);
+  /// Borrows both; `source` is at most limits::kSourceBytes long. Reads [begin, end) of it.
+  Lexer(const Source& source, Diagnostics& diagnostics, std::uint32_t begin = 0,
+        std::uint32_t end = UINT32_MAX);
 
   /// The next token; Eof for ever after the last one.
   Token next();

@@ -239,6 +239,9 @@ class ProgramBuilder {
 std::optional<Linked> link(std::span<const Graph> graphs, const Library& library,
                            const LinkOptions& options, Diagnostics& diagnostics) {
   if (diagnostics.has_errors()) return std::nullopt;
+  auto done = [&](std::string_view stage) {
+    if (options.stage_done) options.stage_done(stage);
+  };
   for (const Graph& g : graphs) {
     const bool empty = g.descriptors.empty() && g.top_functions.empty() && g.constants.empty() &&
                        g.type_definitions.empty() && g.params.empty() && g.imports.empty() &&
@@ -248,15 +251,20 @@ std::optional<Linked> link(std::span<const Graph> graphs, const Library& library
           .help("begin with `surface grey bsdf = matte(0.5); end`");
     lint(g, diagnostics);
   }
+  done("lint");
   Elaborator elaborator(library, options, diagnostics);
   elaborator.run(graphs);
   if (diagnostics.has_errors()) return std::nullopt;
+  done("elaborate");
   Linked linked;
   linked.program = ProgramBuilder(elaborator, diagnostics).build(options, linked.dump);
   linked.params = std::move(elaborator.params);
   linked.dependencies = std::move(elaborator.dependencies);
   linked.unknown_params = std::move(elaborator.unknown_params);
-  if (const auto fault = vm::verify(linked.program))
+  done("emit");
+  const auto fault = vm::verify(linked.program);
+  done("verify");
+  if (fault)
     throw std::logic_error("emitted code does not verify: " + fault->function + ": " + fault->what);
   return linked;
 }

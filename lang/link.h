@@ -21,9 +21,15 @@ namespace mms::lang {
 /// What scripts may call: rows written in C++, and modules written in the language itself.
 struct Library {
   std::span<const vm::Builtin> builtins;
+  /// A definition at the top level of a module: `name`, at [begin, end) of its text.
+  struct Item {
+    std::string_view name;
+    std::uint32_t begin, end;
+  };
   struct Module {
     std::string_view name;  ///< `noise`
     std::string_view text;
+    std::span<const Item> items = {};  ///< all of them; none: they are looked for at every link
   };
   std::span<const Module> modules;
 };
@@ -33,6 +39,9 @@ enum class Level : std::uint8_t { O0, O1, O2 };
 /// What becomes of a value for a param that no script has: an error, or a name in
 /// `Linked::unknown_params`.
 enum class UnknownParams : std::uint8_t { Refuse, Report };
+/// Called when a stage of the linker (`lint`, `library`, `elaborate`, a pass, `emit`, `verify`) is
+/// done: for measuring.
+using StageDone = std::function<void(std::string_view stage)>;
 
 struct LinkOptions {
   Level level = Level::O2;
@@ -40,6 +49,7 @@ struct LinkOptions {
   std::vector<std::string> import_path;                     ///< `-I`, in order
   std::vector<std::pair<std::string, std::string>> params;  ///< `--set name=expression`
   UnknownParams unknown_params = UnknownParams::Refuse;
+  StageDone stage_done;  ///< may be empty
 };
 
 /// A pass from graphs to bytecode: what `--dump-after` and the manual print.

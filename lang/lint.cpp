@@ -19,26 +19,28 @@ std::vector<std::string> output_names(vm::DescriptorForm form) {
   return names;
 }
 
-/// Where each name is read.
-using Reads = std::multimap<std::string, std::uint32_t, std::less<>>;
+/// Where each name is read, in order.
+using Reads = std::map<std::string_view, std::vector<std::uint32_t>>;
 
 Reads reads_of(const Graph& g) {
   Reads reads;
   for (const Expr& e : g.exprs)
     if (e.form == Expr::Form::Name || e.form == Expr::Form::FunctionValue)
-      if (!e.path.empty()) reads.emplace(e.path[0].text, e.span.begin);
+      if (!e.path.empty()) reads[e.path[0].text].push_back(e.span.begin);
   for (const TypeExpr& t : g.types) {
-    if (t.form == TypeExpr::Form::Named) reads.emplace(t.path[0].text, t.span.begin);
+    if (t.form == TypeExpr::Form::Named) reads[t.path[0].text].push_back(t.span.begin);
     for (const TypeExpr::Dim& d : t.dims)
-      if (!d.path.empty()) reads.emplace(d.path[0].text, d.span.begin);
+      if (!d.path.empty()) reads[d.path[0].text].push_back(d.span.begin);
   }
+  for (auto& [name, places] : reads) std::sort(places.begin(), places.end());
   return reads;
 }
 
 bool read_in(const Reads& reads, std::string_view name, Span where) {
-  const auto [begin, end] = reads.equal_range(name);
-  return std::any_of(
-      begin, end, [&](const auto& r) { return where.begin <= r.second && r.second < where.end; });
+  const auto places = reads.find(name);
+  if (places == reads.end()) return false;
+  const auto next = std::lower_bound(places->second.begin(), places->second.end(), where.begin);
+  return next != places->second.end() && *next < where.end;
 }
 
 }  // namespace

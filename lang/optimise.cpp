@@ -2,10 +2,10 @@
 #include "lang/optimise.h"
 
 #include <algorithm>
-#include <cassert>
-#include <map>
-#include <tuple>
-#include <unordered_map>
+#include <stdexcept>
+#include <unordered_set>
+
+#include <fmt/format.h>
 
 namespace mms::lang {
 namespace {
@@ -13,27 +13,49 @@ namespace {
 using vm::Op;
 using vm::SlotType;
 
-/// Rewrites a function node by node, arguments first. `where` maps a result of the old function to
-/// the new one.
-struct Rewrite {
+/// Rewrites a function node by node, arguments first, and knows where each value went.
+class Rewrite {
+ public:
+  explicit Rewrite(IrFunction& f)
+      : out{std::move(f.name), std::move(f.params), {}, {}, f.recursive}, first_(f.nodes.size()) {
+    std::uint32_t values = 0;
+    for (std::size_t i = 0; i < f.nodes.size(); ++i) {
+      first_[i] = values;
+      values += static_cast<std::uint32_t>(f.nodes[i].results.size());
+    }
+    where_.resize(values);
+    out.nodes.reserve(f.nodes.size());
+  }
+
   IrFunction out;
-  std::vector<std::vector<Ref>> where;
 
-  explicit Rewrite(const IrFunction& f)
-      : out{f.name, f.params, {}, {}, f.recursive}, where(f.nodes.size()) {}
-
-  Ref at(Ref r) const { return where[r.node][r.result]; }
-  /// Keeps `n` with its arguments mapped.
+  Ref at(Ref r) const { return where_[first_[r.node] + r.result]; }
+  void put(std::size_t index, std::size_t result, Ref r) { where_[first_[index] + result] = r; }
+  /// All results of node `index` are those of `r.node`.
+  void put_all(std::size_t index, std::size_t count, Ref r) {
+    for (std::size_t k = 0; k < count; ++k)
+      put(index, k, {r.node, static_cast<std::uint16_t>(k), r.function});
+  }
+  void map(std::vector<Ref>& args) const {
+    for (Ref& a : args) a = at(a);
+  }
+  /// Keeps `n`, whose arguments have been mapped.
+  void keep_mapped(std::size_t index, Node n, std::uint16_t function) {
+    const std::size_t count = n.results.size();
+    put_all(index, count, add_node(out, function, std::move(n)));
+  }
   void keep(std::size_t index, Node n, std::uint16_t function) {
-    for (Ref& a : n.args) a = at(a);
-    const Ref r = add_node(out, function, std::move(n));
-    for (std::size_t k = 0; k < out.nodes[r.node].results.size(); ++k)
-      where[index].push_back({r.node, static_cast<std::uint16_t>(k), function});
+    map(n.args);
+    keep_mapped(index, std::move(n), function);
   }
   IrFunction finish(const IrFunction& f) {
     for (Ref r : f.results) out.results.push_back(at(r));
     return std::move(out);
   }
+
+ private:
+  std::vector<std::uint32_t> first_;  ///< of each node, in `where_`
+  std::vector<Ref> where_;
 };
 
 std::uint16_t number_of(const IrFunction& f) {
@@ -57,21 +79,40 @@ IrFunction fold_known(const Module&, IrFunction f) {
   return f;
 }
 
+/// Nodes that compute the same, whatever their arguments are.
+struct SameNode {
+  const std::vector<Node>* nodes;
+
+  std::size_t operator()(std::uint32_t i) const {
+    const Node& n = (*nodes)[i];
+    std::uint64_t h =
+        static_cast<std::uint64_t>(n.op) + (std::uint64_t{n.a} << 8) + (std::uint64_t{n.b} << 40);
+    auto mix = [&](std::uint64_t x) {
+      h = (h ^ x) * 0x9E3779B97F4A7C15u;
+      h ^= h >> 32;
+    };
+    mix(n.args.size());
+    for (Ref r : n.args) mix(r.node + (std::uint64_t{r.result} << 32));
+    return h;
+  }
+  bool operator()(std::uint32_t i, std::uint32_t k) const {
+    const Node &x = (*nodes)[i], &y = (*nodes)[k];
+    return x.op == y.op && x.a == y.a && x.b == y.b && x.args == y.args;
+  }
+};
+
+/// Each node is appended, and taken off again where an equal one stands already.
 IrFunction share(const Module&, IrFunction f) {
   Rewrite w(f);
-  using Key = std::tuple<Op, std::uint32_t, std::uint32_t, std::vector<Ref>>;
-  std::map<Key, std::vector<Ref>> seen;
+  const SameNode same{&w.out.nodes};
+  std::unordered_set<std::uint32_t, SameNode, SameNode> seen(f.nodes.size(), same, same);
   for (std::uint32_t i : order(f)) {
-    Node n = f.nodes[i];
-    Key key{n.op, n.a, n.b, {}};
-    for (Ref a : n.args) std::get<3>(key).push_back(w.at(a));
-    auto it = seen.find(key);
-    if (it != seen.end()) {
-      w.where[i] = it->second;
-      continue;
-    }
-    w.keep(i, std::move(n), number_of(f));
-    seen.emplace(std::move(key), w.where[i]);
+    const std::size_t count = f.nodes[i].results.size();
+    w.map(f.nodes[i].args);
+    const Ref r = add_node(w.out, number_of(f), std::move(f.nodes[i]));
+    const auto [it, is_new] = seen.insert(r.node);
+    w.put_all(i, count, {*it, 0, r.function});
+    if (!is_new) w.out.nodes.pop_back();
   }
   return w.finish(f);
 }
@@ -86,7 +127,7 @@ IrFunction simplify(const Module& m, IrFunction f) {
            m.constants[n->known].f64 == v && m.constants[n->known].f32 == static_cast<float>(v);
   };
   for (std::uint32_t i : order(f)) {
-    const Node& n = f.nodes[i];
+    Node& n = f.nodes[i];
     auto arg = [&](std::size_t k) { return w.at(n.args[k]); };
     auto inner = [&](Ref r) -> const Node& { return w.out.nodes[r.node]; };
     std::optional<Ref> same;
@@ -117,9 +158,9 @@ IrFunction simplify(const Module& m, IrFunction f) {
         break;
     }
     if (same)
-      w.where[i] = {*same};
+      w.put(i, 0, *same);
     else
-      w.keep(i, n, number_of(f));
+      w.keep(i, std::move(n), number_of(f));
   }
   return w.finish(f);
 }
@@ -149,13 +190,14 @@ IrFunction remove_dead(const Module&, IrFunction f) {
   Rewrite w(f);
   for (std::uint32_t i : order(f)) {
     if (read[i].empty()) continue;
-    const Node& n = f.nodes[i];
-    if (n.op != Op::If) {
-      w.keep(i, n, number_of(f));
+    Node& n = f.nodes[i];
+    const bool whole =
+        n.op != Op::If || std::all_of(read[i].begin(), read[i].end(), [](bool b) { return b; });
+    if (whole) {
+      w.keep(i, std::move(n), number_of(f));
       continue;
     }
     Node kept{Op::If, n.a, n.b, {w.at(n.args[0])}, {}, n.line, -1};
-    w.where[i].resize(n.results.size());
     for (int arm = 0; arm < 2; ++arm)
       for (std::size_t k = 0; k < n.results.size(); ++k)
         if (read[i][k])
@@ -166,7 +208,7 @@ IrFunction remove_dead(const Module&, IrFunction f) {
     const Ref r = add_node(w.out, number_of(f), std::move(kept));
     std::uint16_t next = 0;
     for (std::size_t k = 0; k < n.results.size(); ++k)
-      if (read[i][k]) w.where[i][k] = {r.node, next++, r.function};
+      if (read[i][k]) w.put(i, k, {r.node, next++, r.function});
   }
   return w.finish(f);
 }
@@ -185,10 +227,12 @@ Op select_of(SlotType t) {
 }
 
 /// What computing `r` costs, up to a bit above `limit`; anything that may not end is too dear.
-int cost_of(const Module& m, const IrFunction& f, Ref r, int limit, std::vector<bool>& counted) {
-  if (counted[r.node]) return 0;
-  counted[r.node] = true;
+int cost_of(const Module& m, const IrFunction& f, Ref r, int limit,
+            std::vector<std::uint32_t>& counted) {
   const Node& n = f.nodes[r.node];
+  if (n.args.empty() && vm::info(n.op).cost == 0) return 0;  // there may be thousands of them
+  if (std::find(counted.begin(), counted.end(), r.node) != counted.end()) return 0;
+  counted.push_back(r.node);
   if (n.op == Op::Call || n.op == Op::If) return limit + 1;
   int cost = n.op == Op::CallBuiltin    ? m.builtins[n.a]->cost
              : n.op == Op::CallSpectral ? 8 * m.builtins[n.a]->cost
@@ -205,37 +249,43 @@ IrFunction convert_ifs(const Module& m, IrFunction f) {
   constexpr int kCheap = 16;  // measured: an arm that is skipped saves about this much
   Rewrite w(f);
   for (std::uint32_t i : order(f)) {
-    const Node& n = f.nodes[i];
+    Node& n = f.nodes[i];
     int cost = 0;
     if (n.op == Op::If) {
-      std::vector<bool> counted(w.out.nodes.size(), false);
+      std::vector<std::uint32_t> counted;
       for (std::size_t k = 1; k < n.args.size() && cost <= kCheap; ++k)
         cost += cost_of(m, w.out, w.at(n.args[k]), kCheap - cost, counted);
     }
     if (n.op != Op::If || cost > kCheap) {
-      w.keep(i, n, number_of(f));
+      w.keep(i, std::move(n), number_of(f));
       continue;
     }
-    for (std::size_t k = 0; k < n.results.size(); ++k)
-      w.where[i].push_back(
-          add_node(w.out, number_of(f),
-                   {select_of(n.results[k]),
-                    0,
-                    0,
-                    {w.at(n.args[0]), w.at(n.args[1 + k]), w.at(n.args[1 + n.results.size() + k])},
-                    {},
-                    n.line,
-                    -1}));
+    const std::size_t count = n.results.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::vector<Ref> args{w.at(n.args[0]), w.at(n.args[1 + k]),
+                                  w.at(n.args[1 + count + k])};
+      if (args[1] == args[2]) {
+        w.put(i, k, args[1]);
+        continue;
+      }
+      w.put(i, k,
+            add_node(w.out, number_of(f), {select_of(n.results[k]), 0, 0, args, {}, n.line, -1}));
+    }
   }
   return w.finish(f);
 }
 
 constexpr Pass kPipeline[] = {
+    {{"inline",
+      "inline every call, specialise generics, lambdas and materials; only recursion whose end "
+      "depends on the hit is left as a function",
+      Level::O0},
+     nullptr},
+    {{"dead", "drop values nobody reads", Level::O0}, remove_dead},
     {{"fold",
       "replace what is known at link time by constants, computed with the machine's kernels",
       Level::O1},
      fold_known},
-    {{"dead", "drop values nobody reads", Level::O0}, remove_dead},
     {{"share", "compute equal pure expressions once", Level::O1}, share},
     {{"simplify", "apply identities that hold for every float", Level::O2}, simplify},
     {{"if-convert", "compute both sides of a cheap choice instead of branching", Level::O2},
@@ -243,6 +293,17 @@ constexpr Pass kPipeline[] = {
     {{"share-again", "compute once what the last passes made equal", Level::O2}, share},
     {{"dead-again", "drop what the last passes left behind", Level::O1}, remove_dead},
 };
+
+/// What a pass left of `f` is a graph that the next one may trust; looked at where assertions are.
+void recheck(const Module& m, const IrFunction& f, const Pass& p) {
+#if !defined(NDEBUG) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  if (const std::string fault = check_ir(m, f); !fault.empty())
+    throw std::logic_error(
+        fmt::format("after the pass {}: {}\n{}", p.info.name, fault, dump(m, f)));
+#else
+  (void)m, (void)f, (void)p;
+#endif
+}
 
 }  // namespace
 
@@ -263,10 +324,13 @@ std::string optimise(Module& module, const LinkOptions& options) {
     if (options.level < p.info.from) continue;
     for (IrFunction& f : module.functions) {
       if (f.results.empty()) continue;
-      f = p.run(module, std::move(f));
-      assert(check(module, f).empty());
+      if (p.run) {
+        f = p.run(module, std::move(f));
+        recheck(module, f, p);
+      }
       if (p.info.name == options.dump_after) text += dump(module, f);
     }
+    if (p.run && options.stage_done) options.stage_done(p.info.name);
   }
   return text;
 }

@@ -12,14 +12,14 @@ namespace mms::lang {
 
 struct Pass {
   PassInfo info;
-  IrFunction (*run)(const Module&, IrFunction);
+  IrFunction (*run)(const Module&, IrFunction);  ///< null: done before, while the graph was made
 };
 
 /// The pipeline, in order.
 std::span<const Pass> pipeline();
 
 /// Runs the passes of the level over every function; the text of all of them after the pass that
-/// is to be dumped.
+/// is to be dumped. Builds with assertions or sanitizers check every function after every pass.
 std::string optimise(Module& module, const LinkOptions& options);
 
 }  // namespace mms::lang

@@ -43,7 +43,7 @@ std::string shortened(std::string_view text) {
   return std::string(text.substr(0, kLongest - 3)) + "...";
 }
 
-Parser::Parser(SourcePtr source, Diagnostics& diagnostics)
+Parser::Parser(SourcePtr source, Diagnostics& diagnostics, std::uint32_t begin, std::uint32_t end)
     : graph_{.source = std::move(source),
              .exprs = {},
              .types = {},
@@ -56,7 +56,7 @@ Parser::Parser(SourcePtr source, Diagnostics& diagnostics)
              .top_functions = {},
              .descriptors = {}},
       diagnostics_(diagnostics),
-      lexer_(*graph_.source, diagnostics) {
+      lexer_(*graph_.source, diagnostics, begin, end) {
   diagnostics.keep(graph_.source);
 }
 
@@ -358,6 +358,10 @@ Graph empty(SourcePtr source) {
 Graph parse(SourcePtr source, Diagnostics& diagnostics) {
   if (too_long(source, diagnostics)) return empty(std::move(source));
   return Parser(std::move(source), diagnostics).program();
+}
+
+Graph parse(SourcePtr source, Diagnostics& diagnostics, std::uint32_t begin, std::uint32_t end) {
+  return Parser(std::move(source), diagnostics, begin, end).program();
 }
 
 Graph parse_signature(SourcePtr source, Diagnostics& diagnostics) {

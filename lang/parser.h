@@ -13,6 +13,8 @@ namespace mms::lang {
 /// Parses a whole source. After a syntax error parsing goes on at the next item, so the Graph
 /// holds whatever was understood; it must not be linked if `diagnostics` has errors.
 Graph parse(SourcePtr source, Diagnostics& diagnostics);
+/// The same for [begin, end) of the source, which holds whole items.
+Graph parse(SourcePtr source, Diagnostics& diagnostics, std::uint32_t begin, std::uint32_t end);
 
 /// Parses one function header without a body, as a builtin row states it: `real sq(real x)`.
 /// The function is the Graph's only one.

@@ -22,7 +22,8 @@ namespace mms::lang {
 
 class Parser {
  public:
-  Parser(SourcePtr source, Diagnostics& diagnostics);
+  Parser(SourcePtr source, Diagnostics& diagnostics, std::uint32_t begin = 0,
+         std::uint32_t end = UINT32_MAX);
 
   Graph program() &&;
   Graph signature() &&;

@@ -25,6 +25,11 @@ SourcePtr make_source(std::string name, std::string text) {
   return source;
 }
 
+std::uint32_t line_at(const Source& source, std::uint32_t offset) {
+  const auto next = std::upper_bound(source.line_starts.begin(), source.line_starts.end(), offset);
+  return static_cast<std::uint32_t>(next - source.line_starts.begin());
+}
+
 Position position_at(const Source& source, std::uint32_t offset) {
   offset = std::min(offset, static_cast<std::uint32_t>(source.text.size()));
   const auto next = std::upper_bound(source.line_starts.begin(), source.line_starts.end(), offset);

@@ -6,10 +6,12 @@
 /// gone afterwards (arrays, structures, functions, materials, strings).
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lang/ast.h"
@@ -28,6 +30,7 @@ struct FunctionDecl {
   Scope* scope = nullptr;
   bool library = false;
   bool recursive = false;  ///< it was seen to call itself under a condition known only at run time
+  bool checked = false;    ///< its body was seen whole, with arguments that nobody knew
   const Function& function() const { return (*graph)[handle]; }
 };
 
@@ -97,12 +100,38 @@ struct NamedDescriptor {
   Scope* scope = nullptr;
 };
 
+/// The names of a scope. Those of the library are made when they are first looked for: a link then
+/// costs what the scripts reach, not what there is.
+class Names : public std::map<std::string, Binding, std::less<>> {
+ public:
+  /// Makes the binding of one name, if there is one; of all names where there is no argument.
+  using Maker = std::function<void(std::optional<std::string_view>)>;
+  void made_by(Maker maker) { maker_ = std::move(maker); }
+
+  iterator find(std::string_view name) {
+    const iterator it = map::find(name);
+    if (it != end() || !maker_) return it;
+    maker_(name);
+    return map::find(name);
+  }
+  iterator begin() {
+    if (const Maker all = maker_) {
+      all(std::nullopt);
+      maker_ = nullptr;
+    }
+    return map::begin();
+  }
+
+ private:
+  Maker maker_;
+};
+
 struct Scope {
   Scope* parent = nullptr;
   bool library = false;
   bool file = false;            ///< the top level of a script
   std::vector<Scope*> imports;  ///< of files whose names are read here without a prefix
-  std::map<std::string, Binding, std::less<>> names;
+  Names names;
   std::vector<NamedDescriptor> descriptors;  ///< of a file
 };
 

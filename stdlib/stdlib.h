@@ -5,6 +5,7 @@
 /// The standard library as the linker takes it: every builtin row (functions of this folder and
 /// the materials of materials/table.h), and the modules written in the language itself.
 
+#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -16,8 +17,14 @@ namespace mms::stdlib {
 std::span<const vm::Builtin> builtins();
 
 struct Module {
+  /// A definition at the top level: `name`, at [begin, end) of the text.
+  struct Item {
+    std::string_view name;
+    std::uint32_t begin, end;
+  };
   std::string_view name;  ///< `noise`: file name without `.mms`
   std::string_view text;
+  std::span<const Item> items;  ///< every definition, in order
 };
 /// The `.mms` files of this folder, compiled in; `prelude` first.
 std::span<const Module> modules();

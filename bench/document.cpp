@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/document.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace mms::bench {
+
+bool write_part(std::string_view name, std::string_view text) {
+  const std::string path = MMS_SOURCE_DIR "/docs/performance.md";
+  const std::string begin = fmt::format("<!-- begin {} -->\n", name),
+                    end = fmt::format("<!-- end {} -->\n", name);
+  std::ifstream in(path);
+  std::string all{std::istreambuf_iterator<char>(in), {}};
+  if (all.empty()) all = "# Performance\n\nWritten by `./run bench`; do not edit.\n";
+  const std::size_t from = all.find(begin), to = all.find(end);
+  const std::string part = fmt::format("{}{}{}", begin, text, end);
+  if (from != std::string::npos && to != std::string::npos && from < to)
+    all.replace(from, to + end.size() - from, part);
+  else
+    all += "\n" + part;
+  std::ofstream out(path);
+  out << all;
+  if (out.flush()) return true;
+  fmt::print(stderr, "error: cannot write {}\n", path);
+  return false;
+}
+
+}  // namespace mms::bench
