@@ -72,6 +72,7 @@ void Elaborator::declare_type(Context c, const TypeDefinition& t) {
         s.members.push_back(f.name.text);
       }
       b.type = types_.intern(std::move(s));
+      if (too_large(b.type, t.name.span)) b.type = TypeTable::kPoison;
       break;
     }
   }
@@ -116,9 +117,15 @@ std::vector<std::string> Elaborator::visible_names(Scope* scope) {
 }
 
 void Elaborator::unknown_name(Context c, const Path& path, Diag id) {
+  const Binding* space = find(c.scope, path[0].text);
+  const bool missing = space && space->form == Binding::Form::Namespace &&
+                       space->scope->names.empty() && diagnostics_.has_errors();
+  if (missing) return;  // its import was reported
   std::string spelled = path[0].text;
   for (std::size_t i = 1; i < path.size(); ++i) spelled += "::" + path[i].text;
+  const bool full = diagnostics_.error_count() >= kMaxErrors;
   Diagnostic& d = diagnostics_.add(id, join(path.front().span, path.back().span), spelled);
+  if (full) return;  // to look for the nearest of many names takes its time
   const std::string near = nearest(path.back().text, visible_names(c.scope));
   if (!near.empty()) d.help(fmt::format("did you mean `{}`?", near));
   const bool variable =
@@ -161,6 +168,14 @@ int Elaborator::resolve_dim(Context c, const TypeExpr::Dim& d, const Generics* g
   return static_cast<int>(size);
 }
 
+/// All levels of an array or structure together are no more than kAggregate elements.
+bool Elaborator::too_large(TypeId type, Span span) {
+  const std::int64_t elements = types_.elements(type);
+  if (elements <= vm::limits::kAggregate) return false;
+  diagnostics_.add(Diag::ArraySize, span, elements, vm::limits::kAggregate);
+  return true;
+}
+
 TypeId Elaborator::resolve_type(Context c, TypeHandle h, const Generics* generics) {
   const TypeExpr& t = (*c.graph)[h];
   switch (t.form) {
@@ -193,6 +208,7 @@ TypeId Elaborator::resolve_type(Context c, TypeHandle h, const Generics* generic
         const int size = resolve_dim(c, t.dims[i], generics);
         if (size < 0 || type == TypeTable::kPoison) return TypeTable::kPoison;
         type = types_.array(type, size);
+        if (too_large(type, t.span)) return TypeTable::kPoison;
       }
       if (types_.rank(type) > 2) {
         diagnostics_.add(Diag::ArrayRank, t.span);

@@ -24,7 +24,9 @@ void add_script_options(Verb& verb, ScriptOptions& o) {
             "Optimisation level: -O0, -O1 or -O2; the values never differ",
             {"0", "1", "2"}});
   verb.add({"--param", &o.params, "NAME=VALUE", "Value of a `param` of the script"});
-  verb.add({"-W", &o.warnings, "error", "Written -Werror: warnings are errors", {"error"}});
+  verb.add({"-W", &o.warnings, "WORD",
+            "-Werror makes errors of warnings, -Werror=NAME of one, -Wno-NAME silences it; "
+            "docs/errors.md has the names"});
   verb.add({"--color",
             &o.colour,
             "WHEN",
@@ -108,17 +110,19 @@ std::optional<lang::Linked> compile(const std::vector<lang::SourcePtr>& sources,
     exit = fail(Exit::Usage, link.error(), options);
     return std::nullopt;
   }
-  lang::Diagnostics diagnostics;
+  const Result<lang::WarningPolicy> warnings = lang::WarningPolicy::of(options.warnings);
+  if (!warnings) {
+    exit = fail(Exit::Usage, warnings.error(), options);
+    return std::nullopt;
+  }
+  lang::Diagnostics diagnostics(*warnings);
   std::vector<lang::Graph> graphs;
   for (const lang::SourcePtr& source : sources) graphs.push_back(lang::parse(source, diagnostics));
   std::optional<lang::Linked> linked;
   if (!diagnostics.has_errors())
     linked = lang::link(graphs, api::standard_library(), *link, diagnostics);
   print(diagnostics, options);
-  const bool refused = options.warnings == "error" && diagnostics.warning_count() > 0;
-  if (linked && !refused) return linked;
-  if (refused && !diagnostics.has_errors())
-    print_error({"", "there were warnings, and -Werror is set", ""}, colours(options));
+  if (linked && !diagnostics.has_errors()) return linked;
   exit = Exit::Script;
   return std::nullopt;
 }

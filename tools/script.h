@@ -19,7 +19,8 @@ namespace mms::tools {
 struct ScriptOptions {
   std::vector<std::string> files;
   std::vector<std::string> import_path, params;  ///< params as written: `name=value`
-  std::string level = "2", warnings, colour = "auto", format = "text";
+  std::vector<std::string> warnings;             ///< words after -W
+  std::string level = "2", colour = "auto", format = "text";
 
   bool json() const { return format == "json"; }
 };
