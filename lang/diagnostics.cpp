@@ -17,6 +17,9 @@ constexpr DiagInfo kTable[] = {
 // Words longer than this are no typing mistakes; the bound also keeps `nearest` fast.
 constexpr std::size_t kLongestWord = 64;
 
+// Bytes of a message; only one that quotes a monstrous name is longer.
+constexpr std::size_t kLongestText = 1000;
+
 /// Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`: optimal
 /// string alignment (Damerau 1964 with each letter moved at most once).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -44,7 +47,7 @@ std::vector<DiagInfo> all_diagnostics() { return {std::begin(kTable), std::end(k
 
 std::string page(const DiagInfo& row) {
   std::string text =
-      fmt::format("## {} {}\n\n{}: {}\n\n{}\n", row.code, row.name,
+      fmt::format("{} {}\n\n{}: {}\n\n{}\n", row.code, row.name,
                   row.severity == Severity::Error ? "error" : "warning", row.text, row.explain);
   if (!row.flag.empty())
     text += fmt::format("\nSilenced by `-Wno-{0}`, an error with `-Werror={0}`.\n", row.flag);
@@ -100,6 +103,11 @@ std::optional<Severity> WarningPolicy::severity(Diag id) const {
 
 Diagnostic& Diagnostics::add_text(Diag id, Span span, std::string text) {
   dropped_ = {};
+  if (text.size() > kLongestText) {
+    std::size_t end = kLongestText;
+    while (end > 0 && (text[end] & 0xC0) == 0x80) --end;
+    text.replace(end, text.size(), "...");
+  }
   const std::optional<Severity> severity = policy_.severity(id);
   if (!severity) return dropped_;
   const bool error = *severity == Severity::Error;

@@ -44,7 +44,8 @@ struct DiagInfo {
 const DiagInfo& info(Diag d);
 std::vector<DiagInfo> all_diagnostics();
 
-/// The page of one message as Markdown: code, name, text, explanation and examples.
+/// The page of one message as Markdown, whose first line is its title: code, name, text,
+/// explanation and examples.
 std::string page(const DiagInfo& row);
 
 /// A second place that a message speaks of: `declared here`.

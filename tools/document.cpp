@@ -117,7 +117,7 @@ std::string errors_document() {
       "them always there and in this order:\n\n{}\nAnd of an object in `notes`:\n\n{}\n"
       "Members may be added in later versions; these keep their names and meaning.\n",
       kMade, members_table(lang::json_members()), members_table(lang::json_note_members()));
-  for (const lang::DiagInfo& row : lang::all_diagnostics()) text += "\n" + lang::page(row);
+  for (const lang::DiagInfo& row : lang::all_diagnostics()) text += "\n## " + lang::page(row);
   return text;
 }
 
@@ -129,8 +129,8 @@ std::string bytecode_document() {
       "operands. Cost is in units of one real addition.\n\n"
       "| Instruction | Operand | Pops | Pushes | Cost | Meaning |\n|---|---|---|---|---|---|\n",
       kMade);
-  constexpr std::string_view kOperands[] = {"-",          "constant", "input",  "local",
-                                            "block type", "function", "builtin"};
+  constexpr std::string_view kOperands[] = {"-",          "constant", "input",   "local",
+                                            "block type", "function", "builtin", "wavelength"};
   for (const vm::OpInfo& row : vm::kOps)
     text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.name,
                         kOperands[static_cast<std::size_t>(row.operand)], or_dash(row.pops),
