@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "lang/conservation.h"
 #include "lang/elaborator.h"
 #include "lang/parser.h"
 #include "vm/limits.h"
@@ -267,7 +268,10 @@ Value Elaborator::call_builtin(const vm::Builtin* row, const Match& m,
     values.push_back(std::move(v));
   }
   line_ = line_of(span);
-  if (row->lobe >= 0) return make_material(row, values);
+  if (row->lobe >= 0) {
+    check_factor(f, values, span);
+    return make_material(row, values);
+  }
   if (lifted) return call_spectral(row, values, span);
   std::vector<Ref> refs;
   for (const Value& v : values) flatten(v, refs);
@@ -290,6 +294,15 @@ Value Elaborator::call_spectral(const vm::Builtin* row, const std::vector<Value>
   }
   return scalar(TypeTable::kSpectrum, node(Op::CallSpectral, std::move(refs),
                                            module.builtin(row, s.params, s.results), mask));
+}
+
+/// The factor `t` of a combiner is a part of the whole.
+void Elaborator::check_factor(const Function& f, const std::vector<Value>& values, Span span) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (f.formals[i].name.text != "t" || values[i].refs.empty()) continue;
+    const std::optional<double> t = known_number(module, values[i].refs[0]);
+    if (t && !(*t >= 0 && *t <= 1)) diagnostics_.add(Diag::MixFactor, span, *t);
+  }
 }
 
 Value Elaborator::make_material(const vm::Builtin* row, const std::vector<Value>& values) {
@@ -417,7 +430,9 @@ Value Elaborator::call_lambda(const FunctionValue& f, std::vector<BoundArgument>
     declare(scope, e.formals[i].name, std::move(b));
   }
   frames_.push_back({nullptr, dynamic_, false, inlined_});
+  diagnostics_.enter_call(span, "function");
   const Value v = expr({f.graph, scope}, e.args[0]);
+  diagnostics_.leave_call();
   frames_.pop_back();
   return v;
 }

@@ -27,9 +27,19 @@ std::optional<std::int64_t> literal_power(const Expr& exponent) {
 
 }  // namespace
 
+/// Bounds what the walk over expressions takes of the stack: a message once, then nothing more.
+bool Elaborator::too_deep(Span span) {
+  if (depth_ > vm::limits::kExpressionDepth && !full_) {
+    full_ = true;
+    diagnostics_.add(Diag::TooDeepToLink, span, vm::limits::kExpressionDepth);
+  }
+  return full_;
+}
+
 Value Elaborator::expr(Context c, ExprHandle h) {
   const Expr& e = (*c.graph)[h];
-  if (full_) return {};
+  const Deeper deeper(depth_);
+  if (too_deep(e.span)) return {};
   const vm::SourceLine outer = line_;
   line_ = line_of(e.span);
   Value v;
@@ -323,6 +333,8 @@ Value Elaborator::join_arms(Context c, const Expr& e, ExprHandle value, const Va
 }
 
 Value Elaborator::expr_select(Context c, const Expr& e, std::size_t arm) {
+  const Deeper deeper(depth_);
+  if (too_deep(e.span)) return {};
   if (2 * arm + 1 >= e.args.size()) return expr(c, e.args[2 * arm]);
   const ExprHandle value = e.args[2 * arm], condition = e.args[2 * arm + 1];
   const Value cond = expr(c, condition);
@@ -379,6 +391,10 @@ Value Elaborator::array_of(std::vector<Value> parts, const std::vector<Span>& sp
 }
 
 Value Elaborator::expr_array(Context c, const Expr& e) {
+  if (e.args.size() > static_cast<std::size_t>(vm::limits::kAggregate)) {
+    diagnostics_.add(Diag::ArraySize, e.span, e.args.size(), vm::limits::kAggregate);
+    return {};
+  }
   const std::size_t columns = e.args.size() / std::max<std::size_t>(e.rows, 1);
   std::vector<Value> rows;
   std::vector<Span> row_spans;
@@ -397,6 +413,7 @@ Value Elaborator::expr_array(Context c, const Expr& e) {
     diagnostics_.add(Diag::ArrayRank, e.span);
     return {};
   }
+  if (too_large(v.type, e.span)) return {};
   return v;
 }
 

@@ -10,12 +10,9 @@
 namespace mms::lang {
 
 Scope* Elaborator::new_scope(Scope* parent, bool library) {
-  scopes_.push_back({parent,
-                     library || (parent && parent->library && parent != library_scope_),
-                     false,
-                     {},
-                     {},
-                     {}});
+  Scope& scope = scopes_.emplace_back();
+  scope.parent = parent;
+  scope.library = library || (parent && parent->library && parent != library_scope_);
   return &scopes_.back();
 }
 
@@ -102,7 +99,8 @@ TypeId Elaborator::define(Context c, const TypeDefinition& t) {
     s.members.push_back(f.name.text);
     if (s.parts.back() == TypeTable::kPoison) return TypeTable::kPoison;
   }
-  return types_.intern(std::move(s));
+  const TypeId type = types_.intern(std::move(s));
+  return too_large(type, t.name.span) ? TypeTable::kPoison : type;
 }
 
 void Elaborator::declare_constant(Context c, const Constant& k) {
@@ -189,9 +187,15 @@ std::vector<std::string> Elaborator::visible_names(Scope* scope) {
 
 void Elaborator::unknown_name(Context c, const Path& path, Diag id,
                               const std::vector<std::string>& inside) {
+  const Binding* space = find(c.scope, path[0].text);
+  const bool missing = space && space->form == Binding::Form::Namespace && space->scope->missing &&
+                       diagnostics_.has_errors();
+  if (missing) return;  // its import was reported
   std::string spelled = path[0].text;
   for (std::size_t i = 1; i < path.size(); ++i) spelled += "::" + path[i].text;
+  const bool full = diagnostics_.error_count() >= kMaxErrors;
   Diagnostic& d = diagnostics_.add(id, join(path.front().span, path.back().span), spelled);
+  if (full) return;  // to look for the nearest of many names takes its time
   std::vector<std::string> names = visible_names(c.scope);
   names.insert(names.begin(), inside.begin(), inside.end());
   const std::string near = nearest(path.back().text, names);
@@ -246,6 +250,14 @@ int Elaborator::resolve_dim(Context c, const TypeExpr::Dim& d, const Generics* g
   return static_cast<int>(size);
 }
 
+/// All levels of an array or structure together are no more than kAggregate elements.
+bool Elaborator::too_large(TypeId type, Span span) {
+  const std::int64_t elements = types_.elements(type);
+  if (elements <= vm::limits::kAggregate) return false;
+  diagnostics_.add(Diag::ArraySize, span, elements, vm::limits::kAggregate);
+  return true;
+}
+
 TypeId Elaborator::resolve_type(Context c, TypeHandle h, const Generics* generics) {
   const TypeExpr& t = (*c.graph)[h];
   switch (t.form) {
@@ -278,6 +290,7 @@ TypeId Elaborator::resolve_type(Context c, TypeHandle h, const Generics* generic
         const int size = resolve_dim(c, t.dims[i], generics);
         if (size < 0 || type == TypeTable::kPoison) return TypeTable::kPoison;
         type = types_.array(type, size);
+        if (too_large(type, t.span)) return TypeTable::kPoison;
       }
       if (types_.rank(type) > 2) {
         diagnostics_.add(Diag::ArrayRank, t.span);

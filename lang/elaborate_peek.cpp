@@ -130,7 +130,9 @@ TypeId Elaborator::peek_call(const Value& f, const std::vector<BoundArgument>& a
   if (!fn.lambda || peeking_ >= kDeepestPeek) return kPoison;
   const Expr& e = (*fn.graph)[fn.lambda];
   if (e.formals.size() != args.size()) return kPoison;
-  Scope inside{fn.scope, fn.scope->library, false, {}, {}, {}};
+  Scope inside;
+  inside.parent = fn.scope;
+  inside.library = fn.scope->library;
   const Context c{fn.graph, &inside};
   for (std::size_t k = 0; k < args.size(); ++k) {
     Binding b;

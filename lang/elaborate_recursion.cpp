@@ -57,12 +57,17 @@ Value Elaborator::invoke(FunctionDecl* d, const std::vector<Value>& formals, con
   const int dynamic = dynamic_;
   const vm::SourceLine line = line_;
   frames_.push_back({d, dynamic_, false, inlined_++});
+  const std::size_t open_calls = diagnostics_.open_calls();
+  if (span != d->function().header)  // else it is checked without a call
+    diagnostics_.enter_call(span, d->function().name.text);
   Value v;
   try {
     v = inline_body(d, formals, g, result);
+    diagnostics_.leave_calls(open_calls);
   } catch (const Recursion& r) {
     if (r.depth != depth) throw;
     frames_.resize(depth);
+    diagnostics_.leave_calls(open_calls);
     dynamic_ = dynamic;
     line_ = line;
     d->recursive = true;
@@ -210,7 +215,9 @@ Value Elaborator::call_instance(FunctionDecl* d, const std::vector<Value>& forma
       inside.push_back(unflatten(v.type, refs, next));
     }
     instance.own_params = module.functions[function_].params.size();
+    diagnostics_.enter_call(span, name);
     const Value v = inline_body(d, inside, g, result);
+    diagnostics_.leave_call();
     if (!v.poison()) {
       std::vector<Ref> refs;
       flatten(v, refs);

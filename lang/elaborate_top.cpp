@@ -7,7 +7,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "lang/conservation.h"
 #include "lang/elaborator.h"
+#include "lang/lint.h"
 #include "lang/parser.h"
 #include "vm/limits.h"
 #include "vm/outputs.h"
@@ -84,6 +86,8 @@ void Elaborator::import(const Graph& from, const Import& i, Scope* scope) {
       if (!text) continue;
       dependencies.push_back(place.string());
       graphs_.push_back(parse(make_source(place.string(), std::move(*text)), diagnostics_));
+      if (!i.as && !from.descriptors.empty() && !uses(from, graphs_.back()))
+        diagnostics_.add(Diag::UnusedImport, i.span, i.file);
       space = new_scope(library_scope_);
       imported_[key] = space;
       add_graph(graphs_.back(), space);
@@ -93,6 +97,9 @@ void Elaborator::import(const Graph& from, const Import& i, Scope* scope) {
   }
   auto library_module = modules_.find(i.file);
   if (library_module != modules_.end()) return name_it(library_module->second);
+  Scope* nothing = new_scope(nullptr);
+  nothing->missing = true;  // nothing more is said of its names
+  name_it(nothing);
   Diagnostic& d = diagnostics_.add(Diag::ImportNotFound, i.span, i.file);
   std::vector<std::string> modules;
   for (const auto& [name, unused] : modules_) modules.push_back(name);
@@ -317,6 +324,12 @@ void Elaborator::outputs(ElaboratedDescriptor& e, Scope* scope) {
     e.outputs[o] = v;
     if (v.material && v.material->size() > vm::limits::kLobes)
       diagnostics_.add(Diag::TooManyLobes, a->name.span, v.material->size(), vm::limits::kLobes);
+    constexpr double kRounding = 1e-6;  // of a sum of weights that was meant to be 1
+    if (const double w = static_cast<Output>(o) == Output::Material && v.material
+                             ? stated_weight(module, *v.material)
+                             : 0;
+        w > 1 + kRounding)
+      diagnostics_.add(Diag::NonConserving, a->name.span, w);
   }
   const std::size_t height = static_cast<std::size_t>(Output::Height),
                     gradient = static_cast<std::size_t>(Output::Gradient);

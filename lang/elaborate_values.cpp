@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "lang/conservation.h"
 #include "lang/elaborator.h"
 #include "lang/fold.h"
 #include "vm/limits.h"
@@ -412,10 +413,11 @@ Value Elaborator::arithmetic(Operator op, const Value& a, const Value& b, Span s
   if (!TypeTable::is_number(a.type) || !TypeTable::is_number(b.type))
     return bad_operands(op, a, b, span);
   if (op == Operator::Pow) return power(a, b, span);
+  if (op == Operator::Div && b.refs.size() == 1 && known_number(module, b.refs[0]) == 0.0)
+    diagnostics_.add(Diag::DivisionByZero, span);
   TypeId type = types_.join(a.type, b.type);
   if (type == TypeTable::kPoison) return bad_operands(op, a, b, span);
   if (type == kInt && op == Operator::Div) {
-    if (known_integer(b) == 0) diagnostics_.add(Diag::DivisionByZero, span);
     type = kReal;
   }
   const Value x = widen(a, type), y = widen(b, type);

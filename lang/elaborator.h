@@ -112,6 +112,13 @@ class Elaborator {
     bool instance;            ///< its body is being compiled as a function of the machine
     std::size_t inlined = 0;  ///< `inlined_` when the frame was entered
   };
+  struct Deeper {  ///< counts `depth_` while it lives
+    explicit Deeper(int& d) : depth(d) { ++depth; }
+    ~Deeper() { --depth; }
+    Deeper(const Deeper&) = delete;
+    Deeper& operator=(const Deeper&) = delete;
+    int& depth;
+  };
   struct Recursion {  ///< thrown to turn the frame at `depth` into a function of the machine
     std::size_t depth;
   };
@@ -179,6 +186,8 @@ class Elaborator {
 
   // --- expressions (elaborate_expr.cpp) ---
   Value expr(Context c, ExprHandle h);
+  bool too_deep(Span span);
+  bool too_large(TypeId type, Span span);
   Value expr_name(Context c, const Expr& e);
   Value expr_variable(Context c, const Expr& e);
   Value expr_binary(Context c, const Expr& e);
@@ -212,6 +221,7 @@ class Elaborator {
   Value call_builtin(const vm::Builtin* row, const Match& m, std::vector<BoundArgument>& args,
                      Span span);
   Value call_spectral(const vm::Builtin* row, const std::vector<Value>& values, Span span);
+  void check_factor(const Function& f, const std::vector<Value>& values, Span span);
   Value make_material(const vm::Builtin* row, const std::vector<Value>& values);
   Value call_script(FunctionDecl* d, const Match& m, std::vector<BoundArgument>& args, Span span);
   TypeId formal_type(Context c, TypeHandle h, TypeId actual, const Generics& g);
@@ -363,6 +373,7 @@ class Elaborator {
                                     ///< be known at link may still be so in every call of it
   std::vector<Binding*> evaluating_;  ///< constants, each asked for by the one before
   int peeking_ = 0;    ///< constants and lambdas that are being looked into for a type
+  int depth_ = 0;      ///< expressions begun and not ended, through all the calls that are inlined
   bool full_ = false;  ///< a limit was hit and reported: stop making nodes
 };
 

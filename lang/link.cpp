@@ -236,6 +236,24 @@ class ProgramBuilder {
 
 }  // namespace
 
+namespace {
+
+/// Where a function of the machine is defined: an entry is named after its descriptor.
+Span place_of(std::span<const Graph> graphs, std::string_view function) {
+  const std::string_view descriptor = function.substr(0, function.find('.'));
+  for (const Graph& g : graphs) {
+    for (const Descriptor& d : g.descriptors)
+      if (d.name.text == descriptor) return d.name.span;
+    for (const FunctionHandle f : g.top_functions)
+      if (g[f].name.text == function) return g[f].name.span;
+    for (const Constant& k : g.constants)
+      if (k.name.text == function) return k.name.span;
+  }
+  return {};
+}
+
+}  // namespace
+
 std::optional<Linked> link(std::span<const Graph> graphs, const Library& library,
                            const LinkOptions& options, Diagnostics& diagnostics) {
   if (diagnostics.has_errors()) return std::nullopt;
@@ -264,6 +282,11 @@ std::optional<Linked> link(std::span<const Graph> graphs, const Library& library
   done("emit");
   const auto fault = vm::verify(linked.program);
   done("verify");
+  if (fault && fault->limit) {
+    diagnostics.add(Diag::TooLarge, place_of(graphs, fault->function), fault->function,
+                    fault->what);
+    return std::nullopt;
+  }
   if (fault)
     throw std::logic_error("emitted code does not verify: " + fault->function + ": " + fault->what);
   return linked;

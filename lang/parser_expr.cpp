@@ -168,6 +168,12 @@ ExprHandle Parser::comparisons(ExprHandle first, int level) {
   Span sign;
   for (const Infix* i = find_infix(peek().tok); i && i->level == level && !panicking_;
        i = find_infix(peek().tok)) {
+    if (e.ops.size() == kTreeHeight) {
+      if (!stopped_)
+        diagnostics_.add(Diag::ExpressionTooLong, from(graph_[first].span.begin), kTreeHeight);
+      stopped_ = panicking_ = true;
+      return first;
+    }
     sign = span(take());
     e.ops.push_back(i->op);
     e.args.push_back(infix(level + 1));

@@ -146,6 +146,7 @@ class Parser {
   void body_definition(Body& b);
   bool accept_brace(Tok brace);
   bool statement();
+  void skip_head();
   bool stray();
 
   Graph graph_;

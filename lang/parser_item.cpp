@@ -380,8 +380,21 @@ bool Parser::statement() {
         .help(loop ? "iteration is recursion: a function that calls itself in its `return`"
                    : "choose between values: `x = select a, if c; b otherwise end;`");
   statement_reported_ = true;
+  if (loop) skip_head();
   panic();
   return true;
+}
+
+// `for (...)`: the `;` inside end nothing.
+void Parser::skip_head() {
+  take();
+  if (!at(Tok::LeftParen)) return;
+  int depth = 0;
+  do {
+    if (at(Tok::LeftParen)) ++depth;
+    if (at(Tok::RightParen)) --depth;
+    take();
+  } while (depth > 0 && !statement_ends());
 }
 
 // What ends something, where nothing is open.

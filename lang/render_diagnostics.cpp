@@ -15,6 +15,8 @@ constexpr std::size_t kColumns = 100;   // of a source line that are shown
 constexpr std::size_t kBefore = 40;     // columns kept before the carets of a line that is cut
 constexpr std::size_t kLongLine = 400;  // bytes; of a longer line only a part is looked at
 
+std::string_view word(Severity s) { return s == Severity::Error ? "error" : "warning"; }
+
 struct Palette {
   const char *error, *warning, *bold, *gutter, *help, *off;
 };
@@ -144,9 +146,10 @@ class Renderer {
 
 std::string Renderer::run() {
   find_gutter();
-  put("{}{}[{}]{}{}: {}{}\n", severity_colour(),
-      d_.severity == Severity::Error ? "error" : "warning", info(d_.id).code, p_.off, p_.bold,
+  put("{}{}[{}]{}{}: {}{}", severity_colour(), word(d_.severity), info(d_.id).code, p_.off, p_.bold,
       d_.text, p_.off);
+  if (const std::string_view flag = info(d_.id).flag; !flag.empty()) put(" [-W{}]", flag);
+  out_ += '\n';
   std::vector<const Source*> done;
   if (d_.span) {
     file(d_.span.source, d_.span, true);
@@ -274,6 +277,35 @@ std::string render(const Diagnostics& d, bool colour) {
   return out;
 }
 
+// The tables and `place` and `render_json` say the same, which diagnostics_test.cpp checks.
+
+constexpr JsonMember kMembers[] = {
+    {"code", "`E0203`; codes are never reused"},
+    {"name", "the code in words"},
+    {"severity", "`error` or `warning`"},
+    {"warning", "a warning's name in `-W`; empty for what is always an error"},
+    {"message", "the sentence"},
+    {"file", "as it was named; empty for what has no place"},
+    {"line", "from 1; 0 for what has no place, and so the next three"},
+    {"column", "from 1, in characters"},
+    {"end_line", "where it ends: the first character after it"},
+    {"end_column", "likewise"},
+    {"label", "what stands beside the carets; may be empty"},
+    {"notes", "other places: objects of the second table"},
+    {"helps", "what to try: strings"},
+};
+constexpr JsonMember kNoteMembers[] = {
+    {"file", "these five as above"},
+    {"line", ""},
+    {"column", ""},
+    {"end_line", ""},
+    {"end_column", ""},
+    {"text", "what is there"},
+};
+
+std::span<const JsonMember> json_members() { return kMembers; }
+std::span<const JsonMember> json_note_members() { return kNoteMembers; }
+
 std::string render_json(const Diagnostic& d) {
   const DiagInfo& row = info(d.id);
   std::string notes, helps;
@@ -283,9 +315,10 @@ std::string render_json(const Diagnostic& d) {
   for (const std::string& h : d.helps)
     helps += fmt::format("{}{}", helps.empty() ? "" : ",", quoted(h));
   return fmt::format(
-      R"({{"code":"{}","name":"{}","severity":"{}","message":{},{},"label":{},"notes":[{}],"helps":[{}]}})",
-      row.code, row.name, d.severity == Severity::Error ? "error" : "warning", quoted(d.text),
-      place(d.span), quoted(d.label), notes, helps);
+      R"({{"code":"{}","name":"{}","severity":"{}","warning":"{}","message":{},{},"label":{},)"
+      R"("notes":[{}],"helps":[{}]}})",
+      row.code, row.name, word(d.severity), row.flag, quoted(d.text), place(d.span),
+      quoted(d.label), notes, helps);
 }
 
 }  // namespace mms::lang

@@ -29,6 +29,15 @@ TypeId TypeTable::function(std::vector<TypeId> formals, TypeId result) {
   return intern({Type::Form::Function, 0, std::move(formals), {}, {}});
 }
 
+std::int64_t TypeTable::elements(TypeId id) const {
+  const Type& t = types_[id];
+  if (t.form == Type::Form::Array) return t.size * elements(t.parts[0]);
+  if (t.form != Type::Form::Struct) return 1;
+  std::int64_t all = 0;
+  for (const TypeId part : t.parts) all += elements(part);
+  return all;
+}
+
 bool TypeTable::is_numeric(TypeId id) const {
   const Type& t = types_[id];
   switch (t.form) {

@@ -66,6 +66,8 @@ class TypeTable {
   int rank(TypeId id) const { return is_array(id) ? 1 + rank(types_[id].parts[0]) : 0; }
   /// The innermost element of nested arrays.
   TypeId scalar(TypeId id) const { return is_array(id) ? scalar(types_[id].parts[0]) : id; }
+  /// Scalars in arrays and structures, all levels counted; 1 for any other type.
+  std::int64_t elements(TypeId id) const;
   /// True where a value can live in machine slots: no material, string or function inside.
   bool is_numeric(TypeId id) const;
   /// Scalars that arithmetic is defined on: integer, real, complex, spectrum.

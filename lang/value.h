@@ -130,6 +130,7 @@ struct Scope {
   Scope* parent = nullptr;
   bool library = false;
   bool file = false;            ///< the top level of a script
+  bool missing = false;         ///< stands for an import that was not found
   std::vector<Scope*> imports;  ///< of files whose names are read here without a prefix
   Names names;
   std::vector<NamedDescriptor> descriptors;  ///< of a file

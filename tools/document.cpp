@@ -103,24 +103,25 @@ std::string inputs_document() {
   return text;
 }
 
+namespace {
+
+std::string members_table(std::span<const lang::JsonMember> members) {
+  std::string text = "| Member | Value |\n|---|---|\n";
+  for (const lang::JsonMember& m : members)
+    text += fmt::format("| `{}` | {} |\n", m.name, cell(m.doc));
+  return text;
+}
+
+}  // namespace
+
 std::string errors_document() {
   std::string text = fmt::format(
-      "# Messages\n\n{}\n`mms explain CODE` prints an entry of this page. With `--format=json` "
-      "each message is one object on one line:\n\n"
-      "| Member | Value |\n|---|---|\n"
-      "| `code`, `name` | as below; codes are never reused |\n"
-      "| `severity` | `error` or `warning` |\n"
-      "| `message` | the sentence |\n"
-      "| `file`, `line`, `column`, `end_line`, `end_column` | where; from 1, columns in characters "
-      "|\n"
-      "| `label` | what stands beside the carets |\n"
-      "| `notes` | other places: objects with the same five members and `text` |\n"
-      "| `helps` | what to try: strings |\n",
-      kMade);
-  for (const lang::DiagInfo& row : lang::all_diagnostics())
-    text += fmt::format("\n## {} {}\n\n{}: {}\n\n{}\n", row.code, row.name,
-                        row.severity == lang::Severity::Error ? "error" : "warning", row.text,
-                        row.explain);
+      "# Messages\n\n{}\n`mms explain CODE` prints an entry of this page.\n\n"
+      "## JSON\n\nWith `--format=json` each message is one object on one line. Its members, all of "
+      "them always there and in this order:\n\n{}\nAnd of an object in `notes`:\n\n{}\n"
+      "Members may be added in later versions; these keep their names and meaning.\n",
+      kMade, members_table(lang::json_members()), members_table(lang::json_note_members()));
+  for (const lang::DiagInfo& row : lang::all_diagnostics()) text += "\n## " + lang::page(row);
   return text;
 }
 

@@ -23,7 +23,7 @@ Exit explain(std::string code) {
   std::vector<std::string> codes;
   for (const lang::DiagInfo& row : lang::all_diagnostics()) {
     if (row.code == upper || row.name == code) {
-      fmt::print("{} {}: {}\n\n{}\n", row.code, row.name, row.text, row.explain);
+      fmt::print("{}", lang::page(row));
       return Exit::Ok;
     }
     codes.emplace_back(row.code);

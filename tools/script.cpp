@@ -28,7 +28,9 @@ void add_script_options(Verb& verb, ScriptOptions& o) {
   verb.add({"--set", &o.settings, "NAME=VALUE",
             o.at_points ? "Value of a `param` of the script, or of a $variable: an expression"
                         : "Value of a `param` of the script: an expression"});
-  verb.add({"-W", &o.warnings, "error", "Written -Werror: warnings are errors", {"error"}});
+  verb.add({"-W", &o.warnings, "WORD",
+            "-Werror makes errors of warnings, -Werror=NAME of one, -Wno-NAME silences it; "
+            "docs/errors.md has the names"});
   add_colour_option(verb, o);
 }
 
@@ -161,6 +163,12 @@ std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
     exit = fail(Exit::Usage, settings.error(), options);
     return std::nullopt;
   }
+  const Result<lang::WarningPolicy> warnings = lang::WarningPolicy::of(options.warnings);
+  if (!warnings) {
+    exit = fail(Exit::Usage, warnings.error(), options);
+    return std::nullopt;
+  }
+  diagnostics = lang::Diagnostics(*warnings);
   lang::LinkOptions link;
   link.level = static_cast<lang::Level>(options.level[0] - '0');
   link.dump_after = options.dump_after;
@@ -192,8 +200,8 @@ std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
   lang::Diagnostics diagnostics;
   auto compiled = compile(sources, options, diagnostics, exit);
   print(diagnostics, options);
-  if (!compiled || options.warnings != "error" || diagnostics.warning_count() == 0) return compiled;
-  exit = fail(Exit::Script, {"", "there were warnings, and -Werror is set", ""}, options);
+  if (compiled && !diagnostics.has_errors()) return compiled;
+  if (compiled) exit = Exit::Script;
   return std::nullopt;
 }
 

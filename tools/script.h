@@ -20,8 +20,9 @@ struct ScriptOptions {
   std::vector<std::string> files;
   std::vector<std::string> import_path;
   std::vector<std::string> settings;  ///< of `--set`, as written: `name=value`
+  std::vector<std::string> warnings;  ///< words after -W
   std::string dump_after;             ///< a pass of lang::passes(), for Linked::dump
-  std::string level = "2", warnings, colour = "auto", format = "text";
+  std::string level = "2", colour = "auto", format = "text";
   bool at_points = false;  ///< the verb evaluates points, so `--set` may set `$variables`
 
   bool json() const { return format == "json"; }

@@ -32,6 +32,9 @@ inline constexpr int kNodes = 1 << 20;
 /// Calls inlined inside one another while linking.
 inline constexpr int kInlineDepth = 200;
 
+/// Expressions inside one another while linking, through the functions that are inlined.
+inline constexpr int kExpressionDepth = 1500;
+
 /// Values on the stack and locals of one function.
 inline constexpr int kSlots = 1 << 16;
 

@@ -12,7 +12,12 @@ namespace {
 
 using Fault = std::optional<VerifyFault>;
 
-Fault fault(const std::string& where, const char* what) { return VerifyFault{where, 0, what}; }
+Fault fault(const std::string& where, const char* what) {
+  return VerifyFault{where, 0, what, false};
+}
+Fault too_large(const std::string& where, const char* what) {
+  return VerifyFault{where, 0, what, true};
+}
 
 bool valid(const Program& program, SourceLine line) {
   return line.line == 0 || line.source < program.sources.size();
@@ -45,8 +50,9 @@ Fault verify_builtins(const Program& program) {
 }
 
 Fault verify_signature(const Program& program, const Function& f) {
-  if (!blocks_of(f.results)) return fault(f.name, "the results are no list of types or too many");
-  if (!blocks_of(f.locals)) return fault(f.name, "the locals are no list of types or too many");
+  if (!blocks_of(f.results))
+    return too_large(f.name, "the results are no list of types or too many");
+  if (!blocks_of(f.locals)) return too_large(f.name, "the locals are no list of types or too many");
   if (f.params.size() > f.locals.size() ||
       !std::equal(f.params.begin(), f.params.end(), f.locals.begin()))
     return fault(f.name, "the parameters are not the first locals");
@@ -66,7 +72,7 @@ Fault verify_functions(const Program& program) {
   const CallGraph graph = call_graph(program);
   for (std::size_t f = 0; f < program.functions.size(); ++f)
     if (graph.expansion[f] > std::uint64_t(limits::kNodes))
-      return fault(program.functions[f].name, "it makes too many calls");
+      return too_large(program.functions[f].name, "it makes too many calls");
   return std::nullopt;
 }
 

@@ -17,6 +17,7 @@ struct VerifyFault {
   std::string function;  ///< empty for faults outside code
   std::size_t instruction = 0;
   std::string what;
+  bool limit = false;  ///< it is too large, which may be its script's fault
 };
 
 /// The first fault found, or nothing.

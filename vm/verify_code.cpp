@@ -85,7 +85,7 @@ class CodeVerifier {
       check(dead_, "the end is reached without Return or TailCall");
     }
     if (ok()) return std::nullopt;
-    return VerifyFault{f_.name, pc_ == 0 ? 0 : pc_ - 1, what_};
+    return VerifyFault{f_.name, pc_ == 0 ? 0 : pc_ - 1, what_, limit_};
   }
 
  private:
@@ -105,11 +105,15 @@ class CodeVerifier {
     if (!condition && ok()) what_ = what;
     return condition;
   }
+  void check_limit(bool condition, const char* what) {
+    limit_ = limit_ || (ok() && !condition);
+    check(condition, what);
+  }
 
   void push(SlotType t) {
     stack_.push_back(t);
     frame_ += block_count(t);
-    check(frame_ <= std::size_t(limits::kSlots), "too many values and locals");
+    check_limit(frame_ <= std::size_t(limits::kSlots), "too many values and locals");
   }
   void push(const std::vector<SlotType>& types) {
     for (const SlotType t : types) push(t);
@@ -236,7 +240,7 @@ class CodeVerifier {
   }
 
   void begin_if(const std::vector<SlotType>& results) {
-    check(arms_.size() < std::size_t(limits::kIfDepth), "If is nested too deeply");
+    check_limit(arms_.size() < std::size_t(limits::kIfDepth), "If is nested too deeply");
     arms_.push_back({&results, stack_.size(), locals_.mark(), false, false, {}, 0});
   }
 
@@ -291,6 +295,7 @@ class CodeVerifier {
   bool dead_ = false;      // nothing reaches this point
   std::size_t pc_ = 0;
   std::string what_;
+  bool limit_ = false;
 };
 
 }  // namespace

@@ -111,6 +111,25 @@ TEST_CASE("a disk that is full") {
   }
 }
 
+TEST_CASE("warnings by name") {
+  const Folder folder;
+  folder.write("w.mms", "surface s\n  spare = 1;\n  bsdf = matte(0.7) + matte(0.7);\nend\n");
+  const auto run = [&](const std::string& words) {
+    return folder.mms("check " + words + " w.mms");
+  };
+  const Outcome plain = run("");
+  CHECK(plain.exit == 0);
+  CHECK(contains(plain.err, "warning[W0401]"));
+  CHECK(contains(plain.err, "[-Wnon-conserving]"));
+  CHECK(run("-Wno-unused -Wno-non-conserving").err == "");
+  const Outcome one = run("-Werror=unused");
+  CHECK(one.exit == 1);
+  CHECK(contains(one.err, "error[W0401]"));
+  CHECK(contains(one.err, "warning[W0407]"));
+  CHECK(run("-Werror -Wno-unused -Wno-error=non-conserving").exit == 0);
+  check_message(run("-Wno-unusd"), 2, "-Wno-unusd", "no warning is called `unusd`");
+}
+
 TEST_CASE("empty file") {
   const Folder folder;
   folder.write("empty.mms", "");

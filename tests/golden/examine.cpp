@@ -374,19 +374,44 @@ std::string difference(const Run& a, const Run& b, int first_lane, int lanes) {
 /// Lanes of the largest batch that is compared; scripts that recurse for ever run in each of them.
 constexpr int kMostLanes = kSanitized ? 32 : 256;
 
-void check_agreement(const lang::SourcePtr& source, const lang::LinkOptions& options, double near,
-                     std::vector<std::string>& failures) {
-  std::vector<Compiled> levels;
+namespace {
+
+/// The program of a script in another shape; its values are those of O2.
+struct Variant {
+  std::string how;
+  vm::Program program;
+  bool always = true;  ///< also where a run takes a million steps in each lane
+};
+
+/// Empty if one of them does not link, which is added to `failures`.
+std::vector<Variant> variants_of(const lang::SourcePtr& source, const lang::LinkOptions& options,
+                                 std::vector<std::string>& failures) {
+  std::vector<Variant> all;
   for (Level level : {Level::O2, Level::O1, Level::O0}) {
     lang::LinkOptions o = options;
     o.level = level;
-    levels.push_back(compile(source, o));
-    if (!levels.back().linked) return failures.push_back("it links at some levels only");
-    if (const auto fault = vm::verify(levels.back().linked->program))
-      return failures.push_back("a level does not verify: " + fault->what + " in " +
-                                fault->function);
+    Compiled c = compile(source, o);
+    if (!c.linked) {
+      failures.push_back("it links at some levels only");
+      return {};
+    }
+    if (const auto fault = vm::verify(c.linked->program)) {
+      failures.push_back("a level does not verify: " + fault->what + " in " + fault->function);
+      return {};
+    }
+    all.push_back({fmt::format("O2 and O{}", static_cast<int>(level)), std::move(c.linked->program),
+                   level != Level::O1});
   }
-  const vm::Program& best = levels[0].linked->program;
+  return all;
+}
+
+}  // namespace
+
+void check_agreement(const lang::SourcePtr& source, const lang::LinkOptions& options, double near,
+                     std::vector<std::string>& failures) {
+  const std::vector<Variant> variants = variants_of(source, options, failures);
+  if (variants.empty()) return;
+  const vm::Program& best = variants[0].program;
   const vm::Executable executable(best);
   const int width = std::min(executable.width(), kMostLanes);
   auto in = points<float>(width);
@@ -398,12 +423,12 @@ void check_agreement(const lang::SourcePtr& source, const lang::LinkOptions& opt
       if (!what.empty()) failures.push_back(fmt::format("{}: {} ({})", all[k].name, what, how));
     };
     const bool slow = !whole.faults.empty();  // a million steps in each lane
-    for (std::size_t l = slow ? 2 : 1; l < levels.size(); ++l) {
-      const vm::Program& p = levels[l].linked->program;
+    for (std::size_t v = 1; v < variants.size(); ++v) {
+      const vm::Program& p = variants[v].program;
+      if (slow && !variants[v].always) continue;
       const Run other = evaluate(p, vm::Executable(p), points_of(p)[k], in, width);
-      report(difference(whole, other, 0, width), l == 1 ? "O2 and O1" : "O2 and O0");
-      if (other.faults.size() != whole.faults.size())
-        report("other faults", "O2 and a lower level");
+      report(difference(whole, other, 0, width), variants[v].how);
+      if (other.faults.size() != whole.faults.size()) report("other faults", variants[v].how);
     }
     if (!slow)
       report(difference(whole, evaluate(best, executable, all[k], in, width, vm::Isa::Baseline), 0,

@@ -161,12 +161,105 @@ TEST_CASE("JSON") {
       .help("h1")
       .help(std::string("\xFF\x01", 2));
   CHECK(render_json(d.all()[0]) ==
-        "{\"code\":\"E0123\",\"name\":\"StrayEnd\",\"severity\":\"error\","
+        "{\"code\":\"E0123\",\"name\":\"StrayEnd\",\"severity\":\"error\",\"warning\":\"\","
         "\"message\":\"this `end` ends nothing\",\"file\":\"a\\\"b.mms\",\"line\":1,\"column\":2,"
         "\"end_line\":2,\"end_column\":2,\"label\":\"tab\\there\",\"notes\":[{\"file\":\"a\\\"b."
         "mms\","
         "\"line\":2,\"column\":2,\"end_line\":2,\"end_column\":3,\"text\":\"x\\\\y\"}],"
         "\"helps\":[\"h1\",\"\xEF\xBF\xBD\\u0001\"]}");
+}
+
+TEST_CASE("the members of the JSON objects are those that are documented") {
+  const SourcePtr s = make_source("t", "abc");
+  Diagnostics d;
+  d.add(Diag::StrayEnd, at(s, "b")).note(at(s, "a"), "n");
+  // Of a text without quotes inside, what stands before a colon is a member.
+  const auto members = [](std::string_view text) {
+    std::vector<std::string> all;
+    for (std::size_t colon = text.find("\":"); colon != text.npos;
+         colon = text.find("\":", colon + 1)) {
+      const std::size_t begin = text.rfind('"', colon - 1) + 1;
+      all.emplace_back(text.substr(begin, colon - begin));
+    }
+    return all;
+  };
+  std::vector<std::string> documented;
+  for (const JsonMember& m : json_members()) {
+    CHECK_FALSE(m.doc.empty());
+    documented.emplace_back(m.name);
+    if (m.name != "notes") continue;
+    for (const JsonMember& n : json_note_members()) documented.emplace_back(n.name);
+  }
+  CHECK(members(render_json(d.all()[0])) == documented);
+}
+
+namespace {
+
+/// What becomes of one warning of each of three kinds, and of an error: `-` silent, `w`, `e`.
+std::string outcome(const std::vector<std::string>& words) {
+  const auto policy = WarningPolicy::of(words);
+  REQUIRE(policy);
+  std::string text;
+  for (const Diag id :
+       {Diag::Unused, Diag::ViewDependent, Diag::NonConserving, Diag::UnexpectedToken}) {
+    const SourcePtr s = make_source("t", "abc");
+    Diagnostics d(*policy);
+    d.add(id, at(s, "a"), "x", "y").help("kept or dropped");
+    text += d.all().empty() ? '-' : d.all()[0].severity == Severity::Error ? 'e' : 'w';
+    CHECK(d.has_errors() == (text.back() == 'e'));
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("warnings are silenced, or made errors, by name") {
+  CHECK(outcome({}) == "wwwe");
+  CHECK(outcome({"error"}) == "eeee");
+  CHECK(outcome({"error", "no-error"}) == "wwwe");
+  CHECK(outcome({"no-unused"}) == "-wwe");
+  CHECK(outcome({"no-unused", "unused"}) == "wwwe");
+  CHECK(outcome({"error=view-dependent"}) == "wewe");
+  CHECK(outcome({"error", "no-view-dependent"}) == "e-ee");
+  CHECK(outcome({"error", "no-error=non-conserving"}) == "eewe");
+  CHECK(outcome({"no-error=unused", "error=unused"}) == "ewwe");
+  const auto unknown = WarningPolicy::of(std::vector<std::string>{"no-unusd"});
+  REQUIRE(!unknown);
+  CHECK(unknown.error().where == "-Wno-unusd");
+  CHECK(unknown.error().what == "no warning is called `unusd`");
+  CHECK(unknown.error().hint == "did you mean `unused`?");
+  for (const std::string word : {"", "all", "error=", "no-", "error=unusedx1", "no-error=all"})
+    CHECK(!WarningPolicy::of(std::vector<std::string>{word}));
+}
+
+TEST_CASE("every warning has a name of its own, and no error has") {
+  std::set<std::string_view> flags;
+  for (const DiagInfo& row : all_diagnostics()) {
+    CAPTURE(row.code);
+    CHECK(row.flag.empty() == (row.severity == Severity::Error));
+    if (row.flag.empty()) continue;
+    CHECK(flags.insert(row.flag).second);
+    CHECK(row.flag.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") == row.flag.npos);
+    CHECK_FALSE(row.flag.starts_with("no-"));
+    CHECK_FALSE(row.flag.starts_with("error"));
+  }
+}
+
+TEST_CASE("a message inside a call tells the innermost calls and the outermost") {
+  const SourcePtr s = make_source("t", "abcdefghij");
+  const auto notes = [&](std::size_t calls) {
+    Diagnostics d;
+    for (std::uint32_t k = 0; k < calls; ++k) d.enter_call({s.get(), k + 1, k + 2}, "f");
+    d.add(Diag::StrayEnd, at(s, "a"));
+    std::string text;
+    for (const Note& n : d.all()[0].notes) text += n.span ? s->text[n.span.begin] : '+';
+    return text;
+  };
+  CHECK(notes(0) == "");
+  CHECK(notes(1) == "b");
+  CHECK(notes(4) == "edcb");
+  CHECK(notes(5) == "fedb+");
+  CHECK(notes(9) == "jihb+");
 }
 
 TEST_CASE("the nearest word") {

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/conservation.h"
+
+#include <algorithm>
+
+namespace mms::lang {
+
+std::optional<double> known_number(const Module& module, Ref r) {
+  const std::deque<IrFunction>& functions = module.functions;
+  const Node* n = &functions[r.function].nodes[r.node];
+  if (n->op == vm::Op::Splat) n = &functions[n->args[0].function].nodes[n->args[0].node];
+  if (n->known < 0) return std::nullopt;
+  const vm::Constant& c = module.constants[static_cast<std::size_t>(n->known)];
+  return c.type == vm::SlotType::Real ? c.f64 : c.integer;
+}
+
+double stated_weight(const Module& module, const MaterialTree& m) {
+  const std::string_view signature = m.row->signature;
+  const std::string_view row = signature.substr(0, signature.find('('));
+  const double first = m.params.empty() ? -1 : known_number(module, m.params[0]).value_or(-1);
+  const double weight = std::clamp(first, 0.0, 1.0);  // of a factor; unknown: 0
+  const auto part = [&](std::size_t k) { return stated_weight(module, *m.children[k]); };
+  if (row == "material add") return part(0) + part(1);
+  if (row == "material scale") return weight * part(0);
+  if (row == "material mix" && first >= 0) return (1 - weight) * part(0) + weight * part(1);
+  if (m.children.size() == 2) return std::min(part(0), part(1));
+  return signature.substr(row.size()).starts_with("(spectrum colour") ? std::max(first, 0.0) : 0;
+}
+
+}  // namespace mms::lang

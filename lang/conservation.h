@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// What the constants in a material say of the light it keeps.
+
+#include <optional>
+
+#include "lang/value.h"
+
+namespace mms::lang {
+
+/// The number that `r` is at link time, also where it stands for a flat spectrum.
+std::optional<double> known_number(const Module& module, Ref r);
+
+/// At least so much of the light do the stated colours and factors of `m` reflect or transmit: sums
+/// add, mixtures lie between their parts. What is known only at run time, or has no colour, counts
+/// as 0, so a result above 1 is certain.
+double stated_weight(const Module& module, const MaterialTree& m);
+
+}  // namespace mms::lang

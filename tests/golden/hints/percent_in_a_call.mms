@@ -1,0 +1,5 @@
+// A percentage as an argument.
+surface s
+    bsdf = matte(50%);
+//                 ^ error E0144: write `0.5`
+end
