@@ -43,9 +43,14 @@ void Elaborator::check_definitions() {
   function_ = new_function("definitions");
   for (std::size_t i = 0; i < scopes_.size(); ++i) {  // evaluation makes more
     if (!scopes_[i].file) continue;
-    for (auto& [name, b] : scopes_[i].names) {
-      if (b.form == Binding::Form::Type) type_of(b);
-      if (b.form == Binding::Form::Constant && &scopes_[i] != program_scope_) evaluate_constant(b);
+    std::vector<Binding*> all;  // as they are written: each then finds the ones before it made
+    for (auto& [name, b] : scopes_[i].names) all.push_back(&b);
+    std::sort(all.begin(), all.end(),
+              [](const Binding* a, const Binding* b) { return a->span.begin < b->span.begin; });
+    for (Binding* b : all) {
+      if (b->form == Binding::Form::Type) type_of(*b);
+      if (b->form == Binding::Form::Constant && &scopes_[i] != program_scope_)
+        evaluate_constant(*b);
     }
   }
 }

@@ -73,6 +73,8 @@ TypeId Elaborator::type_of(Binding& b) {
         .help("a value has a size that is known at link: a type cannot contain itself");
     return TypeTable::kPoison;
   }
+  const Deeper deeper(depth_);
+  if (too_deep(b.span)) return TypeTable::kPoison;
   b.busy = true;
   const TypeId type = define({b.graph, b.scope}, *b.definition);
   b.busy = false;

@@ -39,11 +39,15 @@ T[n] array(integer n, function(integer) -> generic T f) = intrinsic::array(n, f)
 U[n] map(function(generic T) -> generic U f, T[n] a) = array(n, function(k) -> f(a[k]));
 
 /// The array [f(a[0], b[0]), f(a[1], b[1]), ...].
-V[n] zip(function(generic T, generic U) -> generic V f, T[n] a, U[n] b) = array(n, function(k) -> f(a[k], b[k]));
+V[n] zip(function(generic T, generic U) -> generic V f, T[n] a, U[n] b) =
+    array(n, function(k) -> f(a[k], b[k]));
 
 /// f(... f(f(first, a[0]), a[1]) ..., a[n - 1]): `fold(#+, 0, a)` is the sum.
 U fold(function(generic U, generic T) -> U f, U first, T[n] a)
-    U upto(integer k, U so_far) = select so_far, if k == n; upto(k + 1, f(so_far, a[k])) otherwise end;
+    U upto(integer k, U so_far) = select
+        so_far, if k == n;
+        upto(k + 1, f(so_far, a[k])) otherwise
+    end;
     return upto(0, first);
 
 /// The exact derivative of f at x.

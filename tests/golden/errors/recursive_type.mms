@@ -1,5 +1,5 @@
 // A type does not contain itself.
-list typeid struct real head; list tail; end;
-//                            ^^^^ error E0215: unknown type `list`
+   list typeid struct real head; list tail; end;
+// ^^^^ error E0220: this is defined in terms of itself
    loop typeid loop;
-//             ^^^^ error E0215: unknown type `loop`
+// ^^^^ error E0220: this is defined in terms of itself
