@@ -13,6 +13,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "vm/lowered_op.h"
+
 namespace mms::vm {
 
 /// Runs over `lanes` lanes (a multiple of kLaneMultiple, padding included). `in[k]` and `out[k]`
@@ -43,6 +45,8 @@ struct Builtin {
   /// Cost in units of one real addition over a batch.
   int cost = 10;
   Kernel f32 = nullptr, f64 = nullptr;
+  /// An instruction that does just what the kernels do, without the cost of a call.
+  LoweredOp instruction = LoweredOp::CallBuiltin;
   /// For results of type `material`: which scattering model or combiner (materials/table.h). Such
   /// a row has no kernel: the linker compiles it away to a layout.
   int lobe = -1;

@@ -27,7 +27,7 @@ Blocks own_use(const LoweredCode& code, const LoweredFunction& f) {
   };
   for (std::uint32_t pc = f.begin; pc < f.end; ++pc) {
     const LoweredInstruction& i = code.instructions[pc];
-    for (const Operand o : {i.a, i.b, i.c})
+    for (const Operand o : {i.a, i.b, i.c, i.d, i.e})
       if (o.base() == Operand::Input) read(o, o.splat() ? 1 : runs[o.index()]);
     if (i.op != LoweredOp::Call && i.op != LoweredOp::CallBuiltin) continue;
     const CallSite& site = code.sites[i.target];

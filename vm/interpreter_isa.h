@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "vm/machine.h"
 
@@ -14,6 +15,19 @@ namespace mms::vm::MMS_ISA {
 namespace {
 
 #include "vm/kernels.h"
+
+using L = int32_t;
+template <class R, LoweredOp>
+struct KernelOf;
+#define KERNEL(op, functor, result, ...) \
+  template <class R>                     \
+  struct KernelOf<R, LoweredOp::op> {    \
+    using F = functor;                   \
+    using Result = result;               \
+    using Operands = Types<__VA_ARGS__>; \
+  };
+#include "vm/kernels.def"
+#undef KERNEL
 
 /// One call of one function.
 template <class R>
@@ -48,46 +62,67 @@ class Frame {
     return reinterpret_cast<int32_t*>(base_[Operand::Mask] + k * stride_[Operand::Mask]);
   }
 
+  // One kernel over its operands: the result's type, then theirs.
   template <class F, class D, class A>
-  void unary(const In& i) {
-    map1<F>(at<D>(i.dst), Block<A>{at<const A>(i.a)}, n_);
-  }
-  template <class F, class D, class A>
-  void binary(const In& i) {
-    D* const d = at<D>(i.dst);
-    const Block<A> a{at<const A>(i.a)}, b{at<const A>(i.b)};
-    if (i.a.base() == Operand::Constant)
-      map2<F>(d, Same<A>{a[0]}, b, n_);
-    else if (i.b.base() == Operand::Constant)
-      map2<F>(d, a, Same<A>{b[0]}, n_);
-    else
-      map2<F>(d, a, b, n_);
-  }
-  /// `F`, or `Exact` where the divisor is a constant that has an exact reciprocal.
-  template <class F, class Exact>
-  void quotient(const In& i) {
-    if (i.b.base() != Operand::Constant || !has_exact_reciprocal(*at<const R>(i.b)))
-      return binary<F, R, R>(i);
-    const R b = *at<const R>(i.b);
-    map3<Exact>(at<R>(i.dst), Block<R>{at<const R>(i.a)}, Same<R>{b}, Same<R>{1 / b}, n_);
+  void apply(const In& i) {
+    map<F>(at<D>(i.dst), n_, Block<A>{at<const A>(i.a)});
   }
   template <class F, class D, class A, class B>
-  void ternary(const In& i) {
-    map_last2<F>(at<D>(i.dst), Block<A>{at<const A>(i.a)}, Block<B>{at<const B>(i.b)},
-                 Block<B>{at<const B>(i.c)}, i, n_);
+  void apply(const In& i) {
+    D* const d = at<D>(i.dst);
+    const Block<A> a{at<const A>(i.a)};
+    const Block<B> b{at<const B>(i.b)};
+    if (i.a.base() == Operand::Constant)
+      map<F>(d, n_, Same<A>{a[0]}, b);
+    else if (i.b.base() == Operand::Constant)
+      map<F>(d, n_, a, Same<B>{b[0]});
+    else
+      map<F>(d, n_, a, b);
   }
-  /// map3 with the second and the third operand as they are.
+  template <class F, class D, class A, class B, class C>
+  void apply(const In& i) {
+    map_last2<F>(at<D>(i.dst), Block<A>{at<const A>(i.a)}, Block<B>{at<const B>(i.b)},
+                 Block<C>{at<const C>(i.c)}, i, n_);
+  }
+  /// map with the second and the third operand as they are.
   template <class F, class D, class A, class B>
   static void map_last2(D* d, Block<A> a, Block<B> b, Block<B> c, const In& i, int n) {
     const bool same_b = i.b.base() == Operand::Constant, same_c = i.c.base() == Operand::Constant;
     if (same_b && same_c)
-      map3<F>(d, a, Same<B>{b[0]}, Same<B>{c[0]}, n);
+      map<F>(d, n, a, Same<B>{b[0]}, Same<B>{c[0]});
     else if (same_b)
-      map3<F>(d, a, Same<B>{b[0]}, c, n);
+      map<F>(d, n, a, Same<B>{b[0]}, c);
     else if (same_c)
-      map3<F>(d, a, b, Same<B>{c[0]}, n);
+      map<F>(d, n, a, b, Same<B>{c[0]});
     else
-      map3<F>(d, a, b, c, n);
+      map<F>(d, n, a, b, c);
+  }
+
+  /// The kernel of `first`, and of `second` over its result as operand `position`. The operands of
+  /// the first stand first; bit k of `constants` says that operand k of all is a constant.
+  template <LoweredOp first, LoweredOp second, int position, unsigned constants>
+  void pair(const In& i) {
+    using F = KernelOf<R, first>;
+    using G = KernelOf<R, second>;
+    using Others = typename Without<position, typename G::Operands>::Type;
+    pair_over<Chain<F, G, position>, typename G::Result, constants>(
+        i, typename Joined<typename F::Operands, Others>::Type{});
+  }
+  template <class C, class D, unsigned constants, class... T>
+  void pair_over(const In& i, Types<T...> types) {
+    pair_over<C, D, constants>(i, types, std::index_sequence_for<T...>{});
+  }
+  template <class C, class D, unsigned constants, class... T, std::size_t... k>
+  void pair_over(const In& i, Types<T...>, std::index_sequence<k...>) {
+    const Operand o[] = {i.a, i.b, i.c, i.d, i.e};
+    map<C>(at<D>(i.dst), n_, operand<T, (constants >> k & 1) != 0>(o[k])...);
+  }
+  template <class T, bool constant>
+  auto operand(Operand o) const {
+    if constexpr (constant)
+      return Same<T>{*at<const T>(o)};
+    else
+      return Block<T>{at<const T>(o)};
   }
 
   /// Reals from one component of a spectrum operand to the next.
@@ -109,7 +144,7 @@ class Frame {
   template <class F>
   void unary_s(const In& i) {
     each_wavelength(is_run(i.a),
-                    [&](int k, int n) { map1<F>(at<R>(i.dst) + k * n_, component(i.a, k), n); });
+                    [&](int k, int n) { map<F>(at<R>(i.dst) + k * n_, n, component(i.a, k)); });
   }
   template <class F>
   void binary_s(const In& i) {
@@ -119,11 +154,11 @@ class Frame {
       R* const d = at<R>(i.dst) + k * n_;
       const Block<R> a = component(i.a, k), b = component(i.b, k);
       if (same_a)
-        map2<F>(d, Same<R>{a[0]}, b, n);
+        map<F>(d, n, Same<R>{a[0]}, b);
       else if (same_b)
-        map2<F>(d, a, Same<R>{b[0]}, n);
+        map<F>(d, n, a, Same<R>{b[0]});
       else
-        map2<F>(d, a, b, n);
+        map<F>(d, n, a, b);
     });
   }
   void fma_s(const In& i) {
@@ -169,7 +204,7 @@ class Frame {
   /// Takes lanes that were given up out of every mask of this frame.
   void sweep() {
     for (uint32_t k = 0; k < f_.masks; ++k)
-      map2<And>(mask(k), Block<int32_t>{mask(k)}, Block<int32_t>{m_.alive}, n_);
+      map<And>(mask(k), n_, Block<int32_t>{mask(k)}, Block<int32_t>{m_.alive});
   }
   /// One more back edge or recursive call for the lanes of `lanes`.
   void spend(const int32_t* lanes, SourceLine line) {
@@ -217,7 +252,7 @@ class Frame {
   void tail_call(const In& i, SourceLine line) {
     int32_t* lanes = at<int32_t>(i.a);
     spend(lanes, line);
-    map2<Or>(mask(1), Block<int32_t>{mask(1)}, Block<int32_t>{lanes}, n_);
+    map<Or>(mask(1), n_, Block<int32_t>{mask(1)}, Block<int32_t>{lanes});
   }
   /// Whether lanes start again here; those are then the lanes that run.
   bool restart() {
@@ -291,38 +326,22 @@ class Frame {
 
 template <class R>
 void Frame<R>::pass() {
-  using L = int32_t;
   const LoweredInstruction* code = m_.code;
   for (uint32_t pc = f_.begin;; ++pc) {
     const In& i = code[pc];
     switch (i.op) {
-      case LoweredOp::AddR:
-        binary<Add, R, R>(i);
-        break;
-      case LoweredOp::SubR:
-        binary<Sub, R, R>(i);
-        break;
-      case LoweredOp::MulR:
-        binary<Mul, R, R>(i);
-        break;
-      case LoweredOp::DivR:
-        quotient<Div, DivExact>(i);
-        break;
-      case LoweredOp::ModR:
-        quotient<Mod, ModExact>(i);
-        break;
-      case LoweredOp::NegR:
-        unary<Neg, R, R>(i);
-        break;
-      case LoweredOp::FmaR:
-        ternary<Fma, R, R, R>(i);
-        break;
-      case LoweredOp::FmsR:
-        ternary<Fms, R, R, R>(i);
-        break;
-      case LoweredOp::FnmaR:
-        ternary<Fnma, R, R, R>(i);
-        break;
+#define KERNEL(op, ...)    \
+  case LoweredOp::op:      \
+    apply<__VA_ARGS__>(i); \
+    break;
+#include "vm/kernels.def"
+#undef KERNEL
+#define PAIR(first, second, position, constants)                       \
+  case LoweredOp::first##_##second##_##position##_##constants:         \
+    pair<LoweredOp::first, LoweredOp::second, position, constants>(i); \
+    break;
+#include "vm/pairs.def"
+#undef PAIR
 
       case LoweredOp::AddS:
         binary_s<Add>(i);
@@ -346,73 +365,6 @@ void Frame<R>::pass() {
         splat(i);
         break;
 
-      case LoweredOp::AddI:
-        binary<AddWrap, L, L>(i);
-        break;
-      case LoweredOp::SubI:
-        binary<SubWrap, L, L>(i);
-        break;
-      case LoweredOp::MulI:
-        binary<MulWrap, L, L>(i);
-        break;
-      case LoweredOp::MadI:
-        ternary<MulAddWrap, L, L, L>(i);
-        break;
-      case LoweredOp::ModI:
-        binary<ModFloored, L, L>(i);
-        break;
-      case LoweredOp::NegI:
-        unary<NegWrap, L, L>(i);
-        break;
-
-      case LoweredOp::RealOfInt:
-        unary<ToReal<R>, R, L>(i);
-        break;
-      case LoweredOp::IntOfReal:
-        unary<Truncate, L, R>(i);
-        break;
-
-      case LoweredOp::LtR:
-        binary<Lt, L, R>(i);
-        break;
-      case LoweredOp::LeR:
-        binary<Le, L, R>(i);
-        break;
-      case LoweredOp::EqR:
-        binary<Eq, L, R>(i);
-        break;
-      case LoweredOp::NeR:
-        binary<Ne, L, R>(i);
-        break;
-      case LoweredOp::LtI:
-        binary<Lt, L, L>(i);
-        break;
-      case LoweredOp::LeI:
-        binary<Le, L, L>(i);
-        break;
-      case LoweredOp::EqI:
-        binary<Eq, L, L>(i);
-        break;
-      case LoweredOp::NeI:
-        binary<Ne, L, L>(i);
-        break;
-      case LoweredOp::And:
-        binary<And, L, L>(i);
-        break;
-      case LoweredOp::Or:
-        binary<Or, L, L>(i);
-        break;
-      case LoweredOp::Not:
-        unary<Not, L, L>(i);
-        break;
-
-      case LoweredOp::SelectR:
-        ternary<Select, R, L, R>(i);
-        break;
-      case LoweredOp::SelectI:
-      case LoweredOp::SelectL:
-        ternary<Select, L, L, L>(i);
-        break;
       case LoweredOp::SelectS:
         select_s(i);
         break;

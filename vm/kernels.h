@@ -28,18 +28,63 @@ struct Same {
   T operator[](int) const { return value; }
 };
 
-template <class F, class D, class A>
-inline void map1(D* d, A a, int n) {
-  MMS_LANES(i, n) d[i] = F::eval(a[i]);
+/// d[i] = F(a[i]...) for all lanes.
+template <class F, class D, class... A>
+inline void map(D* d, int n, A... a) {
+  MMS_LANES(i, n) d[i] = F::eval(a[i]...);
 }
-template <class F, class D, class A, class B>
-inline void map2(D* d, A a, B b, int n) {
-  MMS_LANES(i, n) d[i] = F::eval(a[i], b[i]);
-}
-template <class F, class D, class A, class B, class C>
-inline void map3(D* d, A a, B b, C c, int n) {
-  MMS_LANES(i, n) d[i] = F::eval(a[i], b[i], c[i]);
-}
+
+template <class... T>
+struct Types {};
+template <class A, class B>
+struct Joined;
+template <class... A, class... B>
+struct Joined<Types<A...>, Types<B...>> {
+  using Type = Types<A..., B...>;
+};
+template <int k, class T>
+struct Without;
+template <class A, class... B>
+struct Without<0, Types<A, B...>> {
+  using Type = Types<B...>;
+};
+template <int k, class A, class... B>
+struct Without<k, Types<A, B...>> {
+  using Type = typename Joined<Types<A>, typename Without<k - 1, Types<B...>>::Type>::Type;
+};
+
+/// Two kernels as one: the second takes the first's result as its operand `position`.
+template <class First, class Second, int position, class = typename First::Operands>
+struct Chain;
+template <class First, class Second, int position, class... A>
+struct Chain<First, Second, position, Types<A...>> {
+  template <class... B>
+  static auto eval(A... a, B... b) {
+    return put(First::F::eval(a...), b...);
+  }
+
+ private:
+  template <class T>
+  static auto put(T r) {
+    return Second::F::eval(r);
+  }
+  template <class T, class B>
+  static auto put(T r, B b) {
+    if constexpr (position == 0)
+      return Second::F::eval(r, b);
+    else
+      return Second::F::eval(b, r);
+  }
+  template <class T, class B, class C>
+  static auto put(T r, B b, C c) {
+    if constexpr (position == 0)
+      return Second::F::eval(r, b, c);
+    else if constexpr (position == 1)
+      return Second::F::eval(b, r, c);
+    else
+      return Second::F::eval(b, c, r);
+  }
+};
 
 inline float floor_of(float x) { return __builtin_floorf(x); }
 inline double floor_of(double x) { return __builtin_floor(x); }
@@ -77,34 +122,32 @@ struct Mod {
     return fma_of(-b, floor_of(a / b), a);
   }
 };
-/// Div and Mod by `b`, a power of two whose reciprocal `r` is exact: the same bits without
-/// dividing.
-struct DivExact {
-  template <class R>
-  static R eval(R a, R, R r) {
-    return a * r;
-  }
-};
-struct ModExact {
+/// Mod by `b`, whose reciprocal `r` is exact: the same bits without dividing.
+struct ModBy {
   template <class R>
   static R eval(R a, R b, R r) {
     return fma_of(-b, floor_of(a * r), a);
   }
 };
-/// Whether x is such a power of two: no mantissa, and an exponent that the reciprocal has too.
-inline bool has_exact_reciprocal(float x) {
-  const uint32_t b = __builtin_bit_cast(uint32_t, x) & 0x7fffffff, e = b >> 23;
-  return b << 9 == 0 && e > 1 && e < 253;
-}
-inline bool has_exact_reciprocal(double x) {
-  const std::uint64_t b = __builtin_bit_cast(std::uint64_t, x) & ~(1ull << 63), e = b >> 52;
-  return b << 12 == 0 && e > 1 && e < 2045;
-}
 struct Neg {
   template <class R>
   static R eval(R a) {
     return -a;
   }
+};
+struct Floor {
+  template <class R>
+  static R eval(R a) {
+    return floor_of(a);
+  }
+};
+struct Abs {
+  static float eval(float a) { return __builtin_fabsf(a); }
+  static double eval(double a) { return __builtin_fabs(a); }
+};
+struct Sqrt {
+  static float eval(float a) { return __builtin_sqrtf(a); }
+  static double eval(double a) { return __builtin_sqrt(a); }
 };
 struct Fma {
   template <class R>

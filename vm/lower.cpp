@@ -2,10 +2,12 @@
 #include "vm/lower.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 
 #include "vm/call_graph.h"
+#include "vm/fuse.h"
 #include "vm/input_use.h"
 #include "vm/slots.h"
 
@@ -46,6 +48,17 @@ bool in_place(const OpInfo& row) {
   return std::all_of(row.pops.begin(), row.pops.end(), [&](char c) { return wide(c) == first; });
 }
 
+/// 1 / c, where it is exact in float and in double: c is a power of two, and both are normal.
+std::optional<Constant> exact_reciprocal(const Constant& c) {
+  int exponent;
+  if (double(c.f32) != c.f64 || std::fabs(std::frexp(c.f64, &exponent)) != 0.5) return std::nullopt;
+  if (exponent < -124 || exponent > 126) return std::nullopt;
+  Constant r = c;
+  r.f32 = 1 / c.f32;
+  r.f64 = 1 / c.f64;
+  return r;
+}
+
 /// One function. Names: a value is what the stack machine would have on its stack; here it is only
 /// where its lanes are.
 class FunctionLowering {
@@ -66,7 +79,7 @@ class FunctionLowering {
     if (row_.loops) next_ = new_mask();
   }
 
-  LoweredFunction lower() {
+  LoweredFunction lower(const PairOf& pair_of) {
     for (std::size_t pc = 0; pc < f_.code.size(); ++pc) {
       pc_ = pc;
       line_ = f_.lines[pc];
@@ -74,12 +87,14 @@ class FunctionLowering {
     }
     for (const std::size_t pc : skips_) land(pc);
     emit(LoweredOp::Return);
-    row_.end = std::uint32_t(code_.instructions.size());
-    for (std::uint32_t pc = row_.begin; pc < row_.end; ++pc) {
+    for (std::size_t pc = row_.begin; pc < code_.instructions.size(); ++pc) {
       const LoweredInstruction& i = code_.instructions[pc];
       row_.calls |= i.op == LoweredOp::TailCall || i.op == LoweredOp::Call;
       for (const Operand o : {i.a, i.b, i.c}) row_.masked |= o.base() == Operand::Mask;
     }
+    for (const std::size_t pc : slots_.read_once()) code_.instructions[pc].read_once = true;
+    fuse(code_, row_.begin, pair_of);
+    row_.end = std::uint32_t(code_.instructions.size());
     row_.masks = masks_;
     row_.blocks = slots_.blocks();
     return row_;
@@ -157,9 +172,13 @@ class FunctionLowering {
 
   std::size_t emit(LoweredOp op, Operand dst = {}, Operand a = {}, Operand b = {}, Operand c = {}) {
     for (const Operand o : {a, b, c}) slots_.read(o);
-    code_.instructions.push_back({op, dst, a, b, c, 0});
+    return append({.op = op, .dst = dst, .a = a, .b = b, .c = c});
+  }
+  /// An instruction whose operands have been read.
+  std::size_t append(const LoweredInstruction& i) {
+    code_.instructions.push_back(i);
     code_.lines.push_back(line_);
-    slots_.define(dst, Definition{false, code_.instructions.size() - 1});
+    slots_.define(i.dst, Definition{false, code_.instructions.size() - 1});
     return code_.instructions.size() - 1;
   }
   void land(std::size_t pc) {
@@ -230,17 +249,23 @@ class FunctionLowering {
 
   void arithmetic(Op op) {
     const OpInfo& row = info(op);
-    const std::vector<Value> in = pop(row.pops.size());
-    LoweredInstruction i{lowered(op), {}, {}, {}, {}, 0};
+    kernel(lowered(op), row.pops.size(), type_of(row.pushes[0]), in_place(row));
+  }
+
+  /// `over`: the result may stand where an operand stood.
+  void kernel(LoweredOp op, std::size_t arity, SlotType type, bool over) {
+    const std::vector<Value> in = pop(arity);
+    LoweredInstruction i{.op = op};
     Operand* const operands[] = {&i.a, &i.b, &i.c};
     for (std::size_t k = 0; k < in.size(); ++k) *operands[k] = in[k].at;
     absorb(i);
-    if (is_product_sum(i.op) && i.a.base() == Operand::Constant) std::swap(i.a, i.b);
-    const SlotType type = type_of(row.pushes[0]);
-    if (in_place(row)) release(in);
+    divide_exactly(i);
+    if (commutes(i.op) && i.a.base() == Operand::Constant) std::swap(i.a, i.b);
+    for (const Operand o : {i.a, i.b, i.c}) slots_.read(o);
+    if (over) release(in);
     i.dst = slots_.allocate(type);
-    emit(i.op, i.dst, i.a, i.b, i.c);
-    if (!in_place(row)) release(in);
+    append(i);
+    if (!over) release(in);
     push(i.dst, type);
   }
 
@@ -266,18 +291,12 @@ class FunctionLowering {
     push(dst, SlotType::Spectrum);
   }
 
-  /// Whether the first two operands are factors: they commute to the bit.
-  static bool is_product_sum(LoweredOp op) {
-    return op == LoweredOp::FmaR || op == LoweredOp::FmaS || op == LoweredOp::FmsR ||
-           op == LoweredOp::FnmaR || op == LoweredOp::MadI;
-  }
-
   /// Takes the instruction before into this one where the pair has an instruction of its own.
   void absorb(LoweredInstruction& i) {
     if (i.op == LoweredOp::AddI) {
       for (const bool second : {false, true})
         if (const auto product = take_last(LoweredOp::MulI, second ? i.b : i.a)) {
-          i = {LoweredOp::MadI, {}, product->a, product->b, second ? i.a : i.b, 0};
+          i = {.op = LoweredOp::MadI, .a = product->a, .b = product->b, .c = second ? i.a : i.b};
           return;
         }
     }
@@ -290,6 +309,20 @@ class FunctionLowering {
       i.op = LoweredOp::FnmaR, i.b = right->a;
   }
 
+  /// Dividing by a constant whose reciprocal is exact is multiplying.
+  void divide_exactly(LoweredInstruction& i) {
+    if (i.op != LoweredOp::DivR && i.op != LoweredOp::ModR) return;
+    if (i.b.base() != Operand::Constant) return;
+    const auto r = exact_reciprocal(code_.constants[i.b.index()]);
+    if (!r) return;
+    const Operand inverse = Operand::make(Operand::Constant, std::uint32_t(code_.constants.size()));
+    code_.constants.push_back(*r);
+    if (i.op == LoweredOp::DivR)
+      i.op = LoweredOp::MulR, i.b = inverse;
+    else
+      i.op = LoweredOp::ModByR, i.c = inverse;
+  }
+
   /// The last instruction, taken back, if it is an `op` that made `o` for nobody else. The slot
   /// `o` stays allocated; what the instruction read still stands where it was.
   std::optional<LoweredInstruction> take_last(LoweredOp op, Operand o) {
@@ -298,6 +331,7 @@ class FunctionLowering {
     if (!d || d->pooled || d->index != last || last < landed_) return std::nullopt;
     const LoweredInstruction i = code_.instructions[last];
     if (i.op != op) return std::nullopt;
+    slots_.define(o, std::nullopt);
     code_.instructions.pop_back();
     code_.lines.pop_back();
     return i;
@@ -390,11 +424,14 @@ class FunctionLowering {
       slots_.refer(else_value.at, -1);
       return push(then_value.at, then_value.type);
     }
+    const LoweredOp op = select_op(then_value.type);
+    LoweredInstruction i{.op = op, .a = arms.then_mask, .b = then_value.at, .c = else_value.at};
+    for (const Operand o : {i.a, i.b, i.c}) slots_.read(o);
     slots_.refer(then_value.at, -1);
     slots_.refer(else_value.at, -1);
-    const Operand dst = slots_.allocate(then_value.type);
-    emit(select_op(then_value.type), dst, arms.then_mask, then_value.at, else_value.at);
-    push(dst, then_value.type);
+    i.dst = slots_.allocate(then_value.type);
+    append(i);
+    push(i.dst, then_value.type);
   }
 
   /// One arm arrives or none: its values and its mask are what is left.
@@ -490,6 +527,9 @@ class FunctionLowering {
   }
 
   void call_builtin(std::uint32_t builtin) {
+    if (const LoweredOp op = program_.builtins[builtin]->instruction; op != LoweredOp::CallBuiltin)
+      return kernel(op, program_.builtin_params[builtin].size(),
+                    program_.builtin_results[builtin][0], true);
     CallSite site = builtin_site(builtin);
     const std::vector<Value> args = pop(program_.builtin_params[builtin].size());
     site.first_arg = pool(args);
@@ -596,14 +636,29 @@ class FunctionLowering {
 
 }  // namespace
 
-LoweredCode lower(const Program& program) {
+std::string_view name(LoweredOp op) {
+  static constexpr std::string_view kNames[] = {
+#define OP(name, ...) #name,
+#include "vm/opcodes.def"
+#undef OP
+      "Copy", "SkipIfNone", "FmsR", "FnmaR", "MadI", "ModByR", "FloorR", "AbsR", "SqrtR",
+#define PAIR(first, second, position, constants) #first "_" #second "_" #position "_" #constants,
+#include "vm/pairs.def"
+#undef PAIR
+  };
+  return kNames[static_cast<std::size_t>(op)];
+}
+
+LoweredCode lower(const Program& program) { return lower(program, tabled_pair); }
+
+LoweredCode lower(const Program& program, const PairOf& pair_of) {
   LoweredCode code;
   code.constants = program.constants;
   code.identity = std::make_shared<const char>();
   const CallGraph graph = call_graph(program);
   for (std::uint32_t f = 0; f < program.functions.size(); ++f) {
     FunctionLowering lowering(program, f, code);
-    LoweredFunction row = lowering.lower();
+    LoweredFunction row = lowering.lower(pair_of);
     row.recursive = graph.recursive[f];
     code.frame_blocks = std::max(code.frame_blocks, row.masks + row.blocks);
     code.functions.push_back(row);

@@ -13,36 +13,10 @@
 #include <memory>
 #include <vector>
 
+#include "vm/lowered_op.h"
 #include "vm/program.h"
 
 namespace mms::vm {
-
-/// The instructions of the stack machine, of which the stack's own never occur, and a few more.
-///
-///  op          | dst        | a        | b           | c         | target
-///  ------------|------------|----------|-------------|-----------|---------------------------
-///  arithmetic  | result     | operands, in the order of the table |
-///  Splat       | result     | a spectrum, or a real splatted      |
-///  If          | then mask  | logic    | mask        | else mask | if no lane: into the other arm
-///  Call        |            | mask     |             |           | call site
-///  CallBuiltin |            |          |             |           | call site
-///  TailCall    |            | mask     |             |           |
-///  Return      |            |          |             |           | end of the function's code
-///  Copy        | result     | block    |             |           |
-///  SkipIfNone  |            | mask     |             |           | if no lane: where to go
-///  FmsR        | a b - c, rounded once: FmaR of a NegR
-///  FnmaR       | c - a b, rounded once: FmaR of a NegR
-///  MadI        | a b + c, wraps: AddI of a MulI
-enum class LoweredOp : std::uint8_t {
-#define OP(name, ...) name,
-#include "vm/opcodes.def"
-#undef OP
-  Copy,
-  SkipIfNone,
-  FmsR,
-  FnmaR,
-  MadI,
-};
 
 /// A block of lanes, or the first of a spectrum's.
 struct Operand {
@@ -67,8 +41,11 @@ struct Operand {
 
 struct LoweredInstruction {
   LoweredOp op;
-  Operand dst, a, b, c;
+  bool read_once =
+      false;  ///< `dst` is a slot that one instruction reads before it is written again
+  Operand dst{}, a{}, b{}, c{};
   std::uint32_t target = 0;
+  Operand d{}, e{};  ///< of pairs
 };
 
 /// A call of a function or of a builtin, whose operands are single blocks in

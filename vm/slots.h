@@ -43,8 +43,14 @@ class Slots {
     if (o.base() != Operand::Slot) return;
     Slot& slot = slots_[o.index()];
     slot.refs += count;
-    if (slot.refs == 0) free_[slot.spectrum].push_back(o.index());
+    if (slot.refs != 0) return;
+    if (slot.reads == 1 && slot.definition && !slot.definition->pooled)
+      read_once_.push_back(slot.definition->index);
+    free_[slot.spectrum].push_back(o.index());
   }
+
+  /// Instructions whose result one operand reads, and nothing else.
+  const std::vector<std::size_t>& read_once() const { return read_once_; }
 
   /// Says what wrote `o`; to be called after the operands of that are read.
   /// None: several places write parts of it.
@@ -75,6 +81,7 @@ class Slots {
   };
   std::vector<Slot> slots_;  // by first block
   std::vector<std::uint32_t> free_[2];
+  std::vector<std::size_t> read_once_;
 };
 
 }  // namespace mms::vm

@@ -4,6 +4,7 @@
 /// \file
 /// Programs written by hand in the tests.
 
+#include <cmath>
 #include <cstring>
 #include <initializer_list>
 #include <string>
@@ -46,14 +47,37 @@ template <class T>
 struct ScaleAndShift {
   static T eval(T a, T b, T c) { return a * b - c; }
 };
+template <class T>
+struct Floor {
+  static T eval(T x) { return std::floor(x); }
+};
+template <class T>
+struct Abs {
+  static T eval(T x) { return std::fabs(x); }
+};
+template <class T>
+struct Sqrt {
+  static T eval(T x) { return std::sqrt(x); }
+};
 
 inline constexpr Builtin kToys[] = {
     builtin<Bits>({.signature = "integer bits(real x)"}),
     builtin<IsNonzero>({.signature = "logic is_nonzero(real x)"}),
     builtin<SumAndDifference>({.signature = "real[2] sum_and_difference(real a, b)"}),
     builtin<ScaleAndShift>({.signature = "real scale_and_shift(real a, b, c)"}),
+    builtin<Floor>({.signature = "real floor(real x)", .instruction = LoweredOp::FloorR}),
+    builtin<Abs>({.signature = "real abs(real x)", .instruction = LoweredOp::AbsR}),
+    builtin<Sqrt>({.signature = "real sqrt(real x)", .instruction = LoweredOp::SqrtR}),
 };
-enum Toy : std::uint32_t { kBits, kIsNonzero, kSumAndDifference, kScaleAndShift };
+enum Toy : std::uint32_t {
+  kBits,
+  kIsNonzero,
+  kSumAndDifference,
+  kScaleAndShift,
+  kFloor,
+  kAbs,
+  kSqrt
+};
 
 /// Builds a program. Source lines count instructions from 1 in each function, in source 0.
 class Assembler {
@@ -61,8 +85,8 @@ class Assembler {
   Assembler() {
     program.sources = {"test"};
     for (const Builtin& b : kToys) program.builtins.push_back(&b);
-    program.builtin_params = {{R}, {R}, {R, R}, {R, R, R}};
-    program.builtin_results = {{I}, {L}, {R, R}, {R}};
+    program.builtin_params = {{R}, {R}, {R, R}, {R, R, R}, {R}, {R}, {R}};
+    program.builtin_results = {{I}, {L}, {R, R}, {R}, {R}, {R}, {R}};
   }
 
   /// Starts a function; `locals` are those that are no parameters.
