@@ -5,6 +5,7 @@
 
 #include "vm/call_graph.h"
 #include "vm/limits.h"
+#include "vm/signature.h"
 #include "vm/verify_code.h"
 
 namespace mms::vm {
@@ -40,6 +41,10 @@ Fault verify_builtins(const Program& program) {
     if (!program.builtins[k]) return fault("", "a builtin is missing");
     if (!blocks_of(program.builtin_params[k]) || !blocks_of(program.builtin_results[k]))
       return fault("", "a builtin's signature is no list of types or too long");
+    const auto signature = read_signature(program.builtins[k]->signature);
+    if (!signature || signature->params != program.builtin_params[k] ||
+        signature->results != program.builtin_results[k])
+      return fault("", "a builtin's signature is not that of its row");
   }
   return std::nullopt;
 }

@@ -155,8 +155,8 @@ TEST_CASE("calls: signatures, kernels and budgets") {
   CHECK(what(a.program) == "an operand has the wrong type");
 
   Assembler kernel;
-  constexpr Builtin material{.signature = "material m()", .lobe = 0};
-  kernel.program.builtins[kBits] = &material;
+  constexpr Builtin none{.signature = "integer none(real x)"};
+  kernel.program.builtins[kBits] = &none;
   kernel.function("f", {}, {I}).real(1).op(Op::CallBuiltin, kBits).ret();
   CHECK(what(kernel.program) == "the builtin has no kernel");
 
@@ -189,6 +189,10 @@ TEST_CASE("tables: types, signatures and lines") {
   CHECK(broken([](Program& p) { p.builtins[0] = nullptr; }) == "a builtin is missing");
   CHECK(broken([](Program& p) { p.builtin_results[0] = {none}; }) ==
         "a builtin's signature is no list of types or too long");
+  CHECK(broken([](Program& p) { p.builtin_params[0].push_back(R); }) ==
+        "a builtin's signature is not that of its row");
+  CHECK(broken([](Program& p) { p.builtin_results[1] = {I}; }) ==
+        "a builtin's signature is not that of its row");
   CHECK(broken([](Program& p) { p.functions[0].results = {none}; }) ==
         "the results are no list of types or too many");
   CHECK(broken([](Program& p) { p.functions[0].locals.assign(limits::kSlots + 1, R); }) ==
