@@ -5,6 +5,7 @@
 #include "materials/table.h"
 #include "tests/golden/expectations.h"
 #include "tests/sanitized.h"
+#include "vm/serialise.h"
 
 namespace mms::golden {
 namespace {
@@ -369,6 +370,24 @@ std::string difference(const Run& a, const Run& b, int first_lane, int lanes) {
   return "";
 }
 
+/// The program stored and loaded again. Says what is not as it was.
+vm::Program reloaded(const lang::Linked& linked, std::vector<std::string>& failures) {
+  const vm::Package package{linked.program, linked.params, linked.dependencies};
+  const auto library = api::standard_library().builtins;
+  const std::vector<std::byte> file = vm::save(package, library);
+  auto loaded = vm::load(file, library);
+  if (!loaded) {
+    failures.push_back("it does not load again: " + loaded.error().what);
+    return linked.program;
+  }
+  if (loaded->params != package.params || loaded->dependencies != package.dependencies)
+    failures.push_back("its params or dependencies are lost when it is stored");
+  if (vm::save(*loaded, library) != file) failures.push_back("stored again it is another file");
+  if (vm::disassemble(loaded->program) != vm::disassemble(linked.program))
+    failures.push_back("stored and loaded it is another program");
+  return std::move(loaded->program);
+}
+
 }  // namespace
 
 /// Lanes of the largest batch that is compared; scripts that recurse for ever run in each of them.
@@ -386,6 +405,8 @@ void check_agreement(const lang::SourcePtr& source, const lang::LinkOptions& opt
       return failures.push_back("a level does not verify: " + fault->what + " in " +
                                 fault->function);
   }
+  std::vector<vm::Program> stored;
+  for (const Compiled& level : levels) stored.push_back(reloaded(*level.linked, failures));
   const vm::Program& best = levels[0].linked->program;
   const vm::Executable executable(best);
   const int width = std::min(executable.width(), kMostLanes);
@@ -405,10 +426,15 @@ void check_agreement(const lang::SourcePtr& source, const lang::LinkOptions& opt
       if (other.faults.size() != whole.faults.size())
         report("other faults", "O2 and a lower level");
     }
-    if (!slow)
+    if (!slow) {
       report(difference(whole, evaluate(best, executable, all[k], in, width, vm::Isa::Baseline), 0,
                         width),
              "both builds of the machine");
+      for (const vm::Program& p : stored)
+        report(
+            difference(whole, evaluate(p, vm::Executable(p), points_of(p)[k], in, width), 0, width),
+            "stored and loaded");
+    }
     report(difference(whole, evaluate(best, executable, all[k], in, 13), 0, 13), "13 lanes");
     for (int lane : {0, 1, 2, width - 1}) {
       auto one = alone(in, lane);
