@@ -35,7 +35,7 @@ class Describer {
   std::string text() const {
     std::string all;
     for (const Table& t : tables_)
-      all += "\nA *" + t.name + "*:\n\n| Field | Form | Meaning |\n|---|---|---|\n" + t.rows;
+      all += "\n### " + t.name + "\n\n| Field | Form | Meaning |\n|---|---|---|\n" + t.rows;
     return all;
   }
 
