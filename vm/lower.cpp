@@ -609,7 +609,7 @@ LoweredCode lower(const Program& program) {
     code.functions.push_back(row);
     code.results.push_back(lowering.results());
   }
-  find_input_use(code);
+  find_input_use(code, graph);
   return code;
 }
 

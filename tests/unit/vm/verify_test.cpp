@@ -167,6 +167,21 @@ TEST_CASE("calls: signatures, kernels and budgets") {
   CHECK(what(many.program) == "it makes too many calls");
 }
 
+TEST_CASE("values that calls move are counted before they are moved") {
+  // `wide` has as many results as fit and is not sound: that is found once the count has passed.
+  const auto calls = [](int n) {
+    Assembler a;
+    a.function("f", {}, {});
+    for (int k = 0; k < n; ++k) a.call(1);
+    a.ret();
+    a.function("wide", {}, std::vector<SlotType>(1 << 15, R)).ret();
+    return what(a.program);
+  };
+  constexpr int kMost = limits::kMoves / (1 << 15);
+  CHECK(calls(kMost - 2) == "too many values and locals");
+  CHECK(calls(kMost) == "its instructions move too many values");
+}
+
 TEST_CASE("tables: types, signatures and lines") {
   const auto broken = [](const std::function<void(Program&)>& edit) {
     Assembler a;
