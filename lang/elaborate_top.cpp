@@ -348,7 +348,8 @@ void Elaborator::run(std::span<const Graph> graphs) {
     imported_[key_of(g)] = program_scope_;
   for (const Graph& g : graphs) add_graph(g, program_scope_);
   for (const DeclaredParam& p : declared_params_) describe_param(*p.graph, *p.param, p.scope);
-  for (const auto& [name, text] : options_.params) {
+  for (const auto& setting : options_.params) {
+    const std::string& name = setting.first;
     const bool there = std::any_of(params.begin(), params.end(),
                                    [&](const ParamInfo& p) { return p.name == name; });
     if (there) continue;

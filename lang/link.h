@@ -60,12 +60,7 @@ struct PassInfo {
 /// All passes, in the order in which they run.
 std::span<const PassInfo> passes();
 
-/// One `param` of the scripts, as an authoring tool shows it.
-struct ParamInfo {
-  std::string name, type, doc, label, unit, page;
-  std::vector<double> value;  ///< flattened
-  std::optional<std::pair<double, double>> range;
-};
+using vm::ParamInfo;
 
 struct Linked {
   vm::Program program;

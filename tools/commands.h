@@ -13,6 +13,7 @@ Verb render_verb();
 Verb info_verb();
 Verb eval_verb();
 Verb disasm_verb();
+Verb compile_verb();
 Verb explain_verb();
 Verb doc_verb();
 Verb completion_verb();
@@ -20,8 +21,8 @@ Verb fmt_verb();
 Verb test_verb();
 
 /// In the order of `mms --help`.
-inline constexpr Verb (*kVerbs[])() = {check_verb,  render_verb,    info_verb, eval_verb,
-                                       disasm_verb, fmt_verb,       test_verb, explain_verb,
-                                       doc_verb,    completion_verb};
+inline constexpr Verb (*kVerbs[])() = {check_verb,   render_verb,  info_verb,      eval_verb,
+                                       disasm_verb,  compile_verb, fmt_verb,       test_verb,
+                                       explain_verb, doc_verb,     completion_verb};
 
 }  // namespace mms::tools

@@ -12,6 +12,7 @@
 #include "tools/command.h"
 #include "tools/doc_comment.h"
 #include "vm/limits.h"
+#include "vm/serialise.h"
 
 namespace mms::tools {
 
@@ -145,7 +146,7 @@ std::string bytecode_document() {
       "calls open at a time; calls in tail position do not count. A material holds at most {} "
       "scattering models and combiners.\n",
       vm::limits::kBackEdges, vm::limits::kCallDepth, vm::limits::kLobes);
-  return text;
+  return text + "\n## Stored programs\n\n" + vm::format_document();
 }
 
 std::string info_document() {

@@ -48,7 +48,7 @@ Exit print_values(const Compiled& compiled, const EvalOptions& options,
 Exit eval(const EvalOptions& options) {
   std::vector<std::string> files = options.files;
   std::string expression = options.item;
-  if (expression == "-" || expression.ends_with(".mms")) {
+  if (expression == "-" || expression.ends_with(".mms") || expression.ends_with(".mmsc")) {
     files.push_back(expression);
     expression.clear();
   }
@@ -82,7 +82,7 @@ Verb eval_verb() {
   verb.add({"EXPRESSION",
             &options->item,
             "",
-            "An expression; or a script (*.mms, - is standard input) to print constants of",
+            "An expression; or a script (*.mms, *.mmsc, - is standard input) to print constants of",
             {},
             true});
   verb.add({"-f,--file", &options->files, "FILE", "A script whose names the expression may use"});

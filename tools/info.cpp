@@ -203,7 +203,8 @@ Exit info(const InfoOptions& options) {
   const std::vector<vm::CodeFacts> facts = vm::code_facts(linked->program);
   for (const vm::Descriptor& d : linked->program.descriptors)
     json["descriptors"].push_back(to_json(linked->program, d, facts));
-  fmt::print("{}\n", json.dump(2));
+  // Names of files, and all in a stored program, may be no UTF-8.
+  fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
   return exit;
 }
 

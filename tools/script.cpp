@@ -11,6 +11,7 @@
 #include "api/inputs.h"
 #include "api/library.h"
 #include "lang/parser.h"
+#include "tools/stored.h"
 
 namespace mms::tools {
 
@@ -140,6 +141,52 @@ bool only_settings(const lang::Diagnostics& diagnostics) {
                      });
 }
 
+std::optional<lang::Linked> link(const std::vector<lang::SourcePtr>& sources,
+                                 const Settings& settings, const ScriptOptions& options,
+                                 lang::Diagnostics& diagnostics, Exit& exit) {
+  lang::LinkOptions link;
+  link.level = static_cast<lang::Level>(options.level[0] - '0');
+  link.dump_after = options.dump_after;
+  link.import_path = options.import_path;
+  link.params = settings.plain;
+  link.unknown_params = lang::UnknownParams::Report;
+  std::vector<lang::Graph> graphs;
+  for (const lang::SourcePtr& source : sources) {
+    diagnostics.keep(source);
+    graphs.push_back(lang::parse(source, diagnostics));
+  }
+  std::optional<lang::Linked> linked;
+  if (!diagnostics.has_errors())
+    linked = lang::link(graphs, api::standard_library(), link, diagnostics);
+  if (!linked) exit = only_settings(diagnostics) ? Exit::Usage : Exit::Script;
+  return linked;
+}
+
+/// The same where one of the sources is a compiled program, in which params are what they are.
+std::optional<lang::Linked> load(const std::vector<lang::SourcePtr>& sources,
+                                 const Settings& settings, const ScriptOptions& options,
+                                 Exit& exit) {
+  auto loaded = load_stored(sources);
+  if (!loaded) {
+    exit = fail(sources.size() > 1 ? Exit::Usage : Exit::File, loaded.error(), options);
+    return std::nullopt;
+  }
+  for (const auto& [name, value] : settings.plain) {
+    const bool param = std::any_of(loaded->params.begin(), loaded->params.end(),
+                                   [&, &n = name](const auto& p) { return p.name == n; });
+    if (param) {
+      exit = fail(
+          Exit::Usage,
+          {sources[0]->name, fmt::format("is a compiled program: its param `{}` has a value", name),
+           "give the value to `mms compile`"},
+          options);
+      return std::nullopt;
+    }
+    loaded->unknown_params.push_back(name);
+  }
+  return std::move(*loaded);
+}
+
 }  // namespace
 
 void print(const lang::Diagnostics& diagnostics, const ScriptOptions& options) {
@@ -169,24 +216,9 @@ std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
     return std::nullopt;
   }
   diagnostics = lang::Diagnostics(*warnings);
-  lang::LinkOptions link;
-  link.level = static_cast<lang::Level>(options.level[0] - '0');
-  link.dump_after = options.dump_after;
-  link.import_path = options.import_path;
-  link.params = settings->plain;
-  link.unknown_params = lang::UnknownParams::Report;
-  std::vector<lang::Graph> graphs;
-  for (const lang::SourcePtr& source : sources) {
-    diagnostics.keep(source);
-    graphs.push_back(lang::parse(source, diagnostics));
-  }
-  std::optional<lang::Linked> linked;
-  if (!diagnostics.has_errors())
-    linked = lang::link(graphs, api::standard_library(), link, diagnostics);
-  if (!linked) {
-    exit = only_settings(diagnostics) ? Exit::Usage : Exit::Script;
-    return std::nullopt;
-  }
+  auto linked = any_stored(sources) ? load(sources, *settings, options, exit)
+                                    : link(sources, *settings, options, diagnostics, exit);
+  if (!linked) return std::nullopt;
   auto set = variables(*settings, *linked, options.at_points);
   if (!set) {
     exit = fail(Exit::Usage, set.error(), options);

@@ -21,13 +21,13 @@ class Components {
       : graph_(graph),
         callees_(program.functions.size()),
         index_(program.functions.size(), kUnseen),
-        low_(program.functions.size()),
-        component_(program.functions.size(), kUnseen) {
+        low_(program.functions.size()) {
     for (std::size_t f = 0; f < callees_.size(); ++f)
       for (const Instruction& i : program.functions[f].code)
         if (i.op == Op::Call) callees_[f].push_back(i.a);
     graph_.recursive.assign(callees_.size(), false);
     graph_.expansion.assign(callees_.size(), 0);
+    graph_.cycle.assign(callees_.size(), kUnseen);
     for (std::uint32_t f = 0; f < callees_.size(); ++f)
       if (index_[f] == kUnseen) visit(f);
   }
@@ -47,7 +47,7 @@ class Components {
         const std::uint32_t g = callees_[f][v.next++];
         if (index_[g] == kUnseen)
           enter(g);
-        else if (component_[g] == kUnseen)
+        else if (graph_.cycle[g] == kUnseen)
           low_[f] = std::min(low_[f], index_[g]);
         continue;
       }
@@ -68,21 +68,22 @@ class Components {
 
   void finish(std::uint32_t root) {
     const auto begin = std::find(open_.rbegin(), open_.rend(), root).base() - 1;
-    for (auto f = begin; f != open_.end(); ++f) component_[*f] = root;
+    for (auto f = begin; f != open_.end(); ++f) graph_.cycle[*f] = root;
     for (auto f = begin; f != open_.end(); ++f)
       for (const std::uint32_t g : callees_[*f]) {
-        if (component_[g] == root)
+        if (graph_.cycle[g] == root)
           graph_.recursive[*f] = true;
         else
           graph_.expansion[*f] =
               saturating_add(graph_.expansion[*f], saturating_add(graph_.expansion[g], 1));
       }
+    graph_.order.insert(graph_.order.end(), begin, open_.end());
     open_.erase(begin, open_.end());
   }
 
   CallGraph& graph_;
   std::vector<std::vector<std::uint32_t>> callees_;
-  std::vector<std::uint32_t> index_, low_, component_;
+  std::vector<std::uint32_t> index_, low_;
   std::vector<std::uint32_t> open_;
   std::vector<Visit> visits_;
   std::uint32_t count_ = 0;

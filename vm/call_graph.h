@@ -18,6 +18,10 @@ struct CallGraph {
   /// For each function, calls of one run of its body with everything below it, calls inside a
   /// cycle left out (the machine counts those); saturates at the largest value.
   std::vector<std::uint64_t> expansion;
+  /// All functions, what a function calls before it; those that reach one another side by side.
+  std::vector<std::uint32_t> order;
+  /// For each function, the one that stands for all that reach it and are reached by it.
+  std::vector<std::uint32_t> cycle;
 };
 
 /// \pre Every Call of `program` names a function of it.

@@ -39,25 +39,22 @@ Blocks own_use(const LoweredCode& code, const LoweredFunction& f) {
 
 }  // namespace
 
-void find_input_use(LoweredCode& code) {
-  std::vector<Blocks> used;
-  for (const LoweredFunction& f : code.functions) used.push_back(own_use(code, f));
-  // What is called is read too; calls may be circular.
-  for (bool grew = true; grew;) {
-    grew = false;
-    for (std::size_t k = 0; k < used.size(); ++k) {
-      const Blocks before = used[k];
-      for (std::uint32_t pc = code.functions[k].begin; pc < code.functions[k].end; ++pc)
-        if (code.instructions[pc].op == LoweredOp::Call)
-          used[k] |= used[code.sites[code.instructions[pc].target].function];
-      grew |= used[k] != before;
-    }
+void find_input_use(LoweredCode& code, const CallGraph& graph) {
+  // What is called is read too. Functions that reach one another read the same: they share a set,
+  // which is whole before anything outside looks at it.
+  std::vector<Blocks> used(code.functions.size());
+  for (const std::uint32_t f : graph.order) {
+    Blocks& shared = used[graph.cycle[f]];
+    shared |= own_use(code, code.functions[f]);
+    for (std::uint32_t pc = code.functions[f].begin; pc < code.functions[f].end; ++pc)
+      if (code.instructions[pc].op == LoweredOp::Call)
+        shared |= used[graph.cycle[code.sites[code.instructions[pc].target].function]];
   }
   for (std::size_t k = 0; k < used.size(); ++k) {
     LoweredFunction& f = code.functions[k];
     f.first_input = std::uint32_t(code.operands.size());
     for (std::uint32_t b = 0; b < kBlocks; ++b)
-      if (used[k][b]) {
+      if (used[graph.cycle[k]][b]) {
         code.operands.push_back(Operand::make(Operand::Input, b));
         f.input_end = b + 1;
       }

@@ -80,7 +80,7 @@ class Frames {
 /// First block of each machine input.
 constexpr auto kInputBlocks = [] {
   std::array<int, input_count() + 1> blocks{};
-  for (int i = 0; i <= input_count(); ++i) blocks[i] = input_block(i);
+  for (int i = 0; i < input_count(); ++i) blocks[i + 1] = blocks[i] + block_count(input_type(i));
   return blocks;
 }();
 
@@ -227,7 +227,7 @@ Interpreter<R>& Interpreter<R>::operator=(Interpreter&&) noexcept = default;
 
 template <class R>
 void Interpreter<R>::run(const Executable& exe, std::uint32_t function, const InputBatch<R>& in,
-                         int lanes) {
+                         int lanes, const RunOptions& options) {
   State& s = *state_;
   const LoweredCode& code = exe.code();
   assert(function < code.functions.size() && code.functions[function].param_blocks == 0);
@@ -248,6 +248,7 @@ void Interpreter<R>::run(const Executable& exe, std::uint32_t function, const In
   m.alive = s.alive.data();
   m.faults = s.faults.data();
   m.fault_count = 0;
+  m.back_edges = options.back_edges;
   m.in = s.in.data();
   m.out = s.out.data();
   m.open_blocks = f.masks + f.blocks;

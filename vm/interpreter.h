@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "vm/limits.h"
 #include "vm/program.h"
 
 namespace mms::vm {
@@ -80,6 +81,11 @@ struct Fault {
 /// give the same bits (but for which NaN it is).
 enum class Isa : std::uint8_t { Best, Baseline };
 
+struct RunOptions {
+  /// Back edges and recursive calls of one lane before it is given up; at most limits::kBackEdges.
+  int back_edges = limits::kBackEdges;
+};
+
 template <class R>
 class Interpreter {
  public:
@@ -92,7 +98,8 @@ class Interpreter {
   /// Runs function `function`, which has no parameters, for the first `lanes` lanes of `in`.
   /// \pre  1 <= lanes <= in.width() <= width of this interpreter.
   /// \post `result(k, c)` holds the results until the next run. Lanes of a fault hold zero.
-  void run(const Executable& exe, std::uint32_t function, const InputBatch<R>& in, int lanes);
+  void run(const Executable& exe, std::uint32_t function, const InputBatch<R>& in, int lanes,
+           const RunOptions& options = {});
 
   /// Block of result `k` (component `c` of a spectrum). Real results only.
   const R* result(int k, int c = 0) const;

@@ -208,9 +208,9 @@ class Frame {
   }
   /// One more back edge or recursive call for the lanes of `lanes`.
   void spend(const int32_t* lanes, SourceLine line) {
-    if (!count(m_.spent, lanes, limits::kBackEdges, n_)) return;
+    if (!count(m_.spent, lanes, m_.back_edges, n_)) return;
     for (int i = 0; i < n_; ++i)
-      if (lanes[i] && m_.spent[i] > limits::kBackEdges) give_up(i, Fault::Cause::BackEdges, line);
+      if (lanes[i] && m_.spent[i] > m_.back_edges) give_up(i, Fault::Cause::BackEdges, line);
     sweep();
   }
 

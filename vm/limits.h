@@ -41,6 +41,10 @@ inline constexpr int kSlots = 1 << 16;
 /// Nesting of If in one function of a program.
 inline constexpr int kIfDepth = 4096;
 
+/// Values that the instructions of one program move, each counted where it stands: calls and arms
+/// can move far more than a file that holds them has bytes.
+inline constexpr int kMoves = 1 << 27;
+
 /// Blocks of the frames of all open calls of one run, masks counted.
 inline constexpr int kStackBlocks = 1 << 18;
 

@@ -664,7 +664,7 @@ LoweredCode lower(const Program& program, const PairOf& pair_of) {
     code.functions.push_back(row);
     code.results.push_back(lowering.results());
   }
-  find_input_use(code);
+  find_input_use(code, graph);
   return code;
 }
 

@@ -31,6 +31,7 @@ struct Machine {
   std::int32_t* alive;  ///< 0 where a lane was given up
   Fault* faults;        ///< room for one each lane
   int fault_count;
+  int back_edges;  ///< that a lane may take
 
   const void** in;  ///< room for the blocks of one builtin call
   void** out;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "vm/builtin.h"
@@ -79,6 +80,7 @@ struct Function {
   std::vector<SlotType> locals;  ///< parameters first
   std::vector<Instruction> code;
   std::vector<SourceLine> lines;  ///< one for each instruction
+  friend bool operator==(const Function&, const Function&) = default;
 };
 
 /// Where the machine or the layout of a material finds a value.
@@ -95,12 +97,14 @@ struct LayoutNode {
   int lobe = 0;                         ///< materials/table.h
   std::vector<ValueSource> params;      ///< non-material arguments, flattened, in formal order
   std::vector<std::uint32_t> children;  ///< nodes that are its material arguments
+  friend bool operator==(const LayoutNode&, const LayoutNode&) = default;
 };
 
 /// A material expression, compiled away to a static tree. Children precede their parent; the
 /// root is the last node.
 struct MaterialLayout {
   std::vector<LayoutNode> nodes;
+  friend bool operator==(const MaterialLayout&, const MaterialLayout&) = default;
 };
 
 /// One way to run a descriptor: which outputs it computes, and where each is found.
@@ -112,6 +116,7 @@ struct Entry {
   ValueSource gradient[2];                       ///< Real
   MaterialLayout material;                       ///< bsdf or phase
   MaterialLayout emission_material;
+  friend bool operator==(const Entry&, const Entry&) = default;
 };
 
 /// The outputs of a descriptor, for `Descriptor::outputs`.
@@ -132,6 +137,7 @@ struct OutputInfo {
   bool constant = true;   ///< the same everywhere
   bool spectral = false;  ///< reads `$wavelength` or a spectrum that depends on it
   std::uint32_t variables = 0;  ///< bit v: reads Variable v
+  friend bool operator==(const OutputInfo&, const OutputInfo&) = default;
 };
 
 enum class DescriptorForm : std::uint8_t { Surface, Volume };
@@ -146,6 +152,7 @@ struct Descriptor {
   Entry displace;  ///< height and bound
   OutputInfo outputs[static_cast<std::size_t>(Output::Count)];
   const OutputInfo& output(Output o) const { return outputs[static_cast<std::size_t>(o)]; }
+  friend bool operator==(const Descriptor&, const Descriptor&) = default;
 };
 
 /// A function or constant visible from outside by name, for `mms eval` and embedding.
@@ -153,6 +160,7 @@ struct Export {
   std::string name;
   std::string type;        ///< result type in the language's syntax
   std::uint32_t function;  ///< without parameters
+  friend bool operator==(const Export&, const Export&) = default;
 };
 
 struct Program {
@@ -171,6 +179,15 @@ struct Program {
       if (d.form == form && d.name == name) return &d;
     return nullptr;
   }
+  friend bool operator==(const Program&, const Program&) = default;
+};
+
+/// One `param` of the scripts, as an authoring tool shows it. The machine has no use for it.
+struct ParamInfo {
+  std::string name, type, doc, label, unit, page;
+  std::vector<double> value;  ///< flattened
+  std::optional<std::pair<double, double>> range;
+  friend bool operator==(const ParamInfo&, const ParamInfo&) = default;
 };
 
 }  // namespace mms::vm

@@ -5,6 +5,7 @@
 
 #include "vm/call_graph.h"
 #include "vm/limits.h"
+#include "vm/signature.h"
 #include "vm/verify_code.h"
 
 namespace mms::vm {
@@ -45,6 +46,10 @@ Fault verify_builtins(const Program& program) {
     if (!program.builtins[k]) return fault("", "a builtin is missing");
     if (!blocks_of(program.builtin_params[k]) || !blocks_of(program.builtin_results[k]))
       return fault("", "a builtin's signature is no list of types or too long");
+    const auto signature = read_signature(program.builtins[k]->signature);
+    if (!signature || signature->params != program.builtin_params[k] ||
+        signature->results != program.builtin_results[k])
+      return fault("", "a builtin's signature is not that of its row");
   }
   return std::nullopt;
 }
@@ -63,9 +68,43 @@ Fault verify_signature(const Program& program, const Function& f) {
   return std::nullopt;
 }
 
+/// Values that an instruction of `f` moves by what its operand or `f` says, operands unchecked.
+std::size_t moves(const Program& program, const Function& f, const Instruction& i) {
+  const auto size = [&](const auto& lists) { return i.a < lists.size() ? lists[i.a].size() : 0; };
+  switch (i.op) {
+    case Op::Call:
+      return i.a < program.functions.size()
+                 ? program.functions[i.a].params.size() + program.functions[i.a].results.size()
+                 : 0;
+    case Op::CallBuiltin:
+    case Op::CallSpectral:
+      return size(program.builtin_params) + size(program.builtin_results);
+    case Op::If:  // twice taken, once joined
+      return 3 * size(program.block_types);
+    case Op::TailCall:
+      return f.params.size();
+    case Op::Return:
+      return f.results.size();
+    default:
+      return 1;
+  }
+}
+
+Fault verify_moves(const Program& program) {
+  std::size_t left = limits::kMoves;
+  for (const Function& f : program.functions)
+    for (const Instruction& i : f.code) {
+      const std::size_t n = moves(program, f, i) + 1;
+      if (n > left) return fault(f.name, "its instructions move too many values");
+      left -= n;
+    }
+  return std::nullopt;
+}
+
 Fault verify_functions(const Program& program) {
   for (const Function& f : program.functions)
     if (Fault found = verify_signature(program, f)) return found;
+  if (Fault found = verify_moves(program)) return found;
   for (const Function& f : program.functions)
     if (Fault found = verify_code(program, f)) return found;
   // The machine does not count calls of functions that are not recursive.

@@ -5,6 +5,7 @@
 #include "materials/table.h"
 #include "tests/golden/expectations.h"
 #include "tests/sanitized.h"
+#include "vm/serialise.h"
 
 namespace mms::golden {
 namespace {
@@ -369,6 +370,24 @@ std::string difference(const Run& a, const Run& b, int first_lane, int lanes) {
   return "";
 }
 
+/// The program stored and loaded again. Says what is not as it was.
+vm::Program reloaded(const lang::Linked& linked, std::vector<std::string>& failures) {
+  const vm::Package package{linked.program, linked.params, linked.dependencies};
+  const auto library = api::standard_library().builtins;
+  const std::vector<std::byte> file = vm::save(package, library);
+  auto loaded = vm::load(file, library);
+  if (!loaded) {
+    failures.push_back("it does not load again: " + loaded.error().what);
+    return linked.program;
+  }
+  if (loaded->params != package.params || loaded->dependencies != package.dependencies)
+    failures.push_back("its params or dependencies are lost when it is stored");
+  if (vm::save(*loaded, library) != file) failures.push_back("stored again it is another file");
+  if (vm::disassemble(loaded->program) != vm::disassemble(linked.program))
+    failures.push_back("stored and loaded it is another program");
+  return std::move(loaded->program);
+}
+
 }  // namespace
 
 /// Lanes of the largest batch that is compared; scripts that recurse for ever run in each of them.
@@ -399,8 +418,10 @@ std::vector<Variant> variants_of(const lang::SourcePtr& source, const lang::Link
       failures.push_back("a level does not verify: " + fault->what + " in " + fault->function);
       return {};
     }
-    all.push_back({fmt::format("O2 and O{}", static_cast<int>(level)), std::move(c.linked->program),
-                   level != Level::O1});
+    const std::string name = fmt::format("O2 and O{}", static_cast<int>(level));
+    vm::Program stored = reloaded(*c.linked, failures);
+    all.push_back({name, std::move(c.linked->program), level != Level::O1});
+    all.push_back({name + ", stored and loaded", std::move(stored), false});
   }
   return all;
 }

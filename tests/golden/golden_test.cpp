@@ -22,8 +22,8 @@
 //
 // A message that is not expected fails, and so does an expected one that is not given. `text` is a
 // part of the message, its label, or its help. Whatever links is run as it comes from O0, O1 and
-// O2, with one lane, an odd number and a whole batch, on both builds of the machine: floats agree
-// bit for bit. The double machine's results lie near.
+// O2, with one lane, an odd number and a whole batch, on both builds of the machine, stored and
+// loaded again: floats agree bit for bit. The double machine's results lie near.
 #include <doctest/doctest.h>
 
 #include <filesystem>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random scripts: every level, lane count and build of the machine gives the same bits, and so does
-// a script whose variables are constants and which is therefore folded by the linker.
-// MMS_PROPERTY_PROGRAMS in the environment says how many (default 300).
+// Random scripts: every level, lane count and build of the machine gives the same bits, and so do
+// the program that is stored and loaded again, and a script whose variables are constants and which
+// is therefore folded by the linker. MMS_PROPERTY_PROGRAMS in the environment says how many
+// (default 300).
 #include <doctest/doctest.h>
 
 #include <cstdlib>

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "materials/table.h"
 #include "stdlib/stdlib.h"
 #include "tests/golden/evaluate.h"
+#include "vm/signature.h"
 
 namespace mms::golden {
 namespace {
@@ -34,6 +36,19 @@ TEST_CASE("the example of every row links and runs") {
     const Run r = run(c.linked->program, executable, c.linked->program.exports[0].function, in, 1);
     REQUIRE(!r.values.empty());
     for (const auto& slot : r.values) CHECK(std::isfinite(slot[0]));
+  }
+}
+
+TEST_CASE("the machine reads every row's signature, and no two rows are called the same") {
+  std::set<std::string> keys;
+  for (const vm::Builtin& row : stdlib::builtins()) {
+    CAPTURE(row.signature);
+    const auto signature = vm::read_signature(row.signature);
+    REQUIRE(signature);
+    CHECK(keys.insert(signature->key).second);
+    if (row.lobe < 0) continue;
+    const materials::Formals& formals = materials::formals(static_cast<materials::Lobe>(row.lobe));
+    CHECK(formals.count == static_cast<int>(signature->params.size()) + signature->materials);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "harness.h"
+#include "vm/lower.h"
 
 namespace mms::vm::test {
 namespace {
@@ -130,6 +131,42 @@ TEST_CASE("a lane that is given up after it was moved is reported as itself") {
     CHECK(out[k].fault.has_value() == (k == 77 || k == 201));
     const int n = k % 50;
     CHECK(out[k].results[0].r[0] == (out[k].fault ? 0 : n * (n + 1) / 2));
+  }
+}
+
+/// Blocks of the inputs that a function reads, itself or through calls.
+std::vector<std::uint32_t> inputs(const LoweredCode& code, std::uint32_t function) {
+  std::vector<std::uint32_t> blocks;
+  const LoweredFunction& f = code.functions[function];
+  for (std::uint32_t k = 0; k < f.inputs; ++k)
+    blocks.push_back(code.operands[f.first_input + k].index());
+  return blocks;
+}
+
+TEST_CASE("a function reads what the functions below it read, through cycles and long chains") {
+  using Blocks = std::vector<std::uint32_t>;
+  const std::uint32_t x = std::uint32_t(input_block(kX)), y = std::uint32_t(input_block(kY));
+  Assembler a;
+  a.function("above", {}, {R}).call(1).ret();
+  a.function("ping", {}, {R}).op(Op::PushInput, kX).call(2).op(Op::AddR).ret();
+  a.function("pong", {}, {R}).call(1).call(3).op(Op::AddR).ret();
+  a.function("below", {}, {R}).op(Op::PushInput, kY).ret();
+  const LoweredCode cycle = lower(a.program);
+  CHECK(inputs(cycle, 0) == Blocks{x, y});
+  CHECK(inputs(cycle, 1) == Blocks{x, y});
+  CHECK(inputs(cycle, 2) == Blocks{x, y});
+  CHECK(inputs(cycle, 3) == Blocks{y});
+
+  for (const bool forwards : {true, false}) {
+    constexpr std::uint32_t kLong = 30000;
+    Assembler chain;
+    for (std::uint32_t k = 0; k < kLong; ++k) {
+      chain.function("f", {}, {R});
+      const bool last = k == (forwards ? kLong - 1 : 0);
+      (last ? chain.op(Op::PushInput, kX) : chain.call(forwards ? k + 1 : k - 1)).ret();
+    }
+    REQUIRE(fault_text(chain.program) == "");
+    CHECK(inputs(lower(chain.program), forwards ? 0 : kLong - 1) == Blocks{x});
   }
 }
 

@@ -155,8 +155,8 @@ TEST_CASE("calls: signatures, kernels and budgets") {
   CHECK(what(a.program) == "an operand has the wrong type");
 
   Assembler kernel;
-  constexpr Builtin material{.signature = "material m()", .lobe = 0};
-  kernel.program.builtins[kBits] = &material;
+  constexpr Builtin none{.signature = "integer none(real x)"};
+  kernel.program.builtins[kBits] = &none;
   kernel.function("f", {}, {I}).real(1).op(Op::CallBuiltin, kBits).ret();
   CHECK(what(kernel.program) == "the builtin has no kernel");
 
@@ -165,6 +165,21 @@ TEST_CASE("calls: signatures, kernels and budgets") {
     many.function("f" + std::to_string(k), {}, {}).call(k + 1).call(k + 1).ret();
   many.function("leaf", {}, {}).ret();
   CHECK(what(many.program) == "it makes too many calls");
+}
+
+TEST_CASE("values that calls move are counted before they are moved") {
+  // `wide` has as many results as fit and is not sound: that is found once the count has passed.
+  const auto calls = [](int n) {
+    Assembler a;
+    a.function("f", {}, {});
+    for (int k = 0; k < n; ++k) a.call(1);
+    a.ret();
+    a.function("wide", {}, std::vector<SlotType>(1 << 15, R)).ret();
+    return what(a.program);
+  };
+  constexpr int kMost = limits::kMoves / (1 << 15);
+  CHECK(calls(kMost - 2) == "too many values and locals");
+  CHECK(calls(kMost) == "its instructions move too many values");
 }
 
 TEST_CASE("tables: types, signatures and lines") {
@@ -189,6 +204,10 @@ TEST_CASE("tables: types, signatures and lines") {
   CHECK(broken([](Program& p) { p.builtins[0] = nullptr; }) == "a builtin is missing");
   CHECK(broken([](Program& p) { p.builtin_results[0] = {none}; }) ==
         "a builtin's signature is no list of types or too long");
+  CHECK(broken([](Program& p) { p.builtin_params[0].push_back(R); }) ==
+        "a builtin's signature is not that of its row");
+  CHECK(broken([](Program& p) { p.builtin_results[1] = {I}; }) ==
+        "a builtin's signature is not that of its row");
   CHECK(broken([](Program& p) { p.functions[0].results = {none}; }) ==
         "the results are no list of types or too many");
   CHECK(broken([](Program& p) { p.functions[0].locals.assign(limits::kSlots + 1, R); }) ==

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// mms compile: a linked program to a file, which every verb takes in place of the scripts.
+#include <memory>
+
+#include "api/library.h"
+#include "tools/commands.h"
+#include "tools/file.h"
+#include "tools/script.h"
+#include "vm/serialise.h"
+
+namespace mms::tools {
+
+namespace {
+
+struct CompileOptions : ScriptOptions {
+  std::string output;
+};
+
+Exit compile_to_file(const CompileOptions& options) {
+  Exit exit = Exit::Ok;
+  const auto linked = compile_files(options.files, options, exit);
+  if (!linked) return exit;
+  const std::vector<std::byte> bytes = vm::save(
+      {linked->program, linked->params, linked->dependencies}, api::standard_library().builtins);
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (const auto error = replace_file(options.output, text))
+    return fail(Exit::File, *error, options);
+  return Exit::Ok;
+}
+
+}  // namespace
+
+Verb compile_verb() {
+  auto options = std::make_shared<CompileOptions>();
+  Verb verb{"compile",
+            "Store a linked program in a file, which every verb takes in place of the scripts",
+            "Examples:\n  mms compile marble.mms -o marble.mmsc\n"
+            "  mms compile --set scale=2 wood.mms -o wood.mmsc && mms info wood.mmsc",
+            {},
+            [options] { return compile_to_file(*options); }};
+  add_files(verb, *options, "Scripts, linked together");
+  verb.add({"-o,--output",
+            &options->output,
+            "PATH",
+            "The file; it is replaced whole or not at all",
+            {},
+            true});
+  add_script_options(verb, *options);
+  add_format_option(verb, *options);
+  return verb;
+}
+
+}  // namespace mms::tools

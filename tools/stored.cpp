@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/stored.h"
+
+#include <algorithm>
+
+#include "api/library.h"
+#include "vm/serialise.h"
+
+namespace mms::tools {
+
+namespace {
+
+bool is_stored(const lang::SourcePtr& source) {
+  return vm::is_stored(source->text) || source->name.ends_with(".mmsc");
+}
+
+}  // namespace
+
+bool any_stored(const std::vector<lang::SourcePtr>& sources) {
+  return std::any_of(sources.begin(), sources.end(), is_stored);
+}
+
+Result<lang::Linked> load_stored(const std::vector<lang::SourcePtr>& sources) {
+  const lang::Source& file = **std::find_if(sources.begin(), sources.end(), is_stored);
+  if (sources.size() > 1)
+    return Error{file.name, "is a compiled program, which cannot be linked with anything more",
+                 "compile the scripts together: mms compile FILE... -o FILE.mmsc"};
+  auto loaded = vm::load(std::as_bytes(std::span(file.text)), api::standard_library().builtins);
+  if (!loaded) {
+    Error error = loaded.error();
+    error.where = error.where.empty() ? file.name : file.name + ": " + error.where;
+    return error;
+  }
+  lang::Linked linked;
+  linked.program = std::move(loaded->program);
+  linked.params = std::move(loaded->params);
+  linked.dependencies = std::move(loaded->dependencies);
+  return linked;
+}
+
+}  // namespace mms::tools

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Compiled programs (`.mmsc`) where verbs take scripts.
+
+#include <vector>
+
+#include "base/result.h"
+#include "lang/link.h"
+
+namespace mms::tools {
+
+/// Whether one of the sources wants to be a compiled program, by its first bytes or its name.
+bool any_stored(const std::vector<lang::SourcePtr>& sources);
+
+/// The program in the only source. Errors: there is another source too, it is damaged, or does not
+/// fit this build.
+/// \pre `any_stored(sources)`
+Result<lang::Linked> load_stored(const std::vector<lang::SourcePtr>& sources);
+
+}  // namespace mms::tools
