@@ -26,7 +26,6 @@
 ///   between values that both are there is within the distance of both; a branch ends the lane.
 /// * The double machine's own rounding is 2^-29 of all this: u is taken larger by 2^-20.
 
-#include <array>
 #include <cfloat>
 #include <cmath>
 #include <cstring>
@@ -50,9 +49,7 @@ struct Bounded {
   bool nan() const { return std::isnan(v) && e == 0; }
 };
 
-struct BoundedCell {
-  std::array<Bounded, kWavelengths> r{};  ///< a real is element 0
-  std::int32_t i = 0;
+struct BoundedCell : vm::test::Cell<Bounded> {
   bool sure = true;  ///< the float machine has the same `i`
 };
 

@@ -2,47 +2,39 @@
 #pragma once
 
 /// \file
-/// The machine that carries bounds: bytecode as opcodes.def describes it, one lane, over the values
-/// of bounded.h.
+/// The plain machine of tests/unit/vm/reference.h over the values of bounded.h.
 
-#include <optional>
 #include <vector>
 
 #include "tests/property/bounded.h"
-#include "vm/limits.h"
 
 namespace mms::property {
 
-class BoundedMachine {
- public:
-  using Values = std::vector<BoundedCell>;
+/// Thrown where the float machine may go another way than the double one.
+struct Unsure {};
 
-  /// `inputs`: a cell for each machine input.
-  BoundedMachine(const vm::Program& program, Values inputs)
-      : p_(program), inputs_(std::move(inputs)) {}
+/// The domain of numbers with bounds.
+struct WithBounds {
+  using Cell = BoundedCell;
 
-  /// Empty where the float machine may have gone another way, or ran too long.
-  std::optional<Values> run(std::uint32_t function) {
-    spent_ = 0;
-    return run(function, {}, 0);
+  static BoundedCell constant(const vm::Constant& c) {
+    const double e = std::fabs(c.f64 - double(c.f32));
+    BoundedCell cell;
+    cell.r[0] = {c.f64, same(c.f64, c.f32) ? 0.0 : std::isnan(e) ? kInfinity : e};
+    cell.i = c.integer;
+    return cell;
   }
 
- private:
-  static constexpr int kMostSteps = 1 << 14;
-
-  static Values pop(Values& stack, std::size_t n) {
-    Values top(stack.end() - std::ptrdiff_t(n), stack.end());
-    stack.resize(stack.size() - n);
-    return top;
+  static bool truth(const BoundedCell& c) {
+    if (!c.sure) throw Unsure{};
+    return c.i;
   }
 
-  /// From an If or Else to behind the Else or End of the same nesting.
-  static std::size_t skip(const vm::Function& f, std::size_t pc) {
-    for (int depth = 0;;) {
-      const vm::Op op = f.code[++pc].op;
-      if (depth == 0 && (op == vm::Op::Else || op == vm::Op::End)) return pc + 1;
-      depth += (op == vm::Op::If) - (op == vm::Op::End);
-    }
+  static std::vector<BoundedCell> builtin(const vm::Builtin& row,
+                                          const std::vector<vm::SlotType>& params,
+                                          const std::vector<vm::SlotType>& results,
+                                          const std::vector<BoundedCell>& args) {
+    return LibraryCall(row, params, results)(args);
   }
 
   static BoundedCell select(const BoundedCell& condition, const BoundedCell& yes,
@@ -108,114 +100,10 @@ class BoundedMachine {
     return d;
   }
 
-  Values call(std::uint32_t builtin, const Values& args) {
-    return LibraryCall(*p_.builtins[builtin], p_.builtin_params[builtin],
-                       p_.builtin_results[builtin])(args);
-  }
-
-  BoundedCell spectral(const vm::Instruction& i, const Values& args) {
-    BoundedCell result;
-    for (std::size_t k = 0; k < result.r.size(); ++k) {
-      Values at = args;
-      for (std::size_t j = 0; j < at.size(); ++j) at[j].r[0] = args[j].r[i.b >> j & 1 ? k : 0];
-      result.r[k] = call(i.a, at)[0].r[0];
-    }
-    return result;
-  }
-
-  BoundedCell constant(const vm::Constant& c) const {
-    BoundedCell cell;
-    cell.r[0] = {c.f64, c.f64 == double(c.f32) || (std::isnan(c.f64) && std::isnan(c.f32))
-                            ? 0.0
-                            : std::fabs(c.f64 - double(c.f32))};
-    if (std::isnan(cell.r[0].e)) cell.r[0].e = kInfinity;
-    cell.i = c.integer;
-    return cell;
-  }
-
-  std::optional<Values> run(std::uint32_t function, Values locals, int depth);
-
-  const vm::Program& p_;
-  Values inputs_;
-  int spent_ = 0;
+ private:
+  static bool same(double a, float b) { return a == double(b) || (std::isnan(a) && std::isnan(b)); }
 };
 
-inline std::optional<BoundedMachine::Values> BoundedMachine::run(std::uint32_t function,
-                                                                 Values locals, int depth) {
-  using vm::Op;
-  const vm::Function& f = p_.functions[function];
-  Values stack;
-  locals.resize(f.locals.size());
-  for (std::size_t pc = 0;; ++pc) {
-    const vm::Instruction i = f.code[pc];
-    switch (i.op) {
-      case Op::PushConst:
-        stack.push_back(constant(p_.constants[i.a]));
-        break;
-      case Op::PushInput:
-        stack.push_back(inputs_[i.a]);
-        break;
-      case Op::LoadLocal:
-        stack.push_back(locals[i.a]);
-        break;
-      case Op::StoreLocal:
-        locals[i.a] = pop(stack, 1)[0];
-        break;
-      case Op::If: {
-        const BoundedCell condition = pop(stack, 1)[0];
-        if (!condition.sure) return std::nullopt;
-        if (!condition.i) pc = skip(f, pc) - 1;
-        break;
-      }
-      case Op::Else:
-        pc = skip(f, pc) - 1;
-        break;
-      case Op::End:
-        break;
-      case Op::Call: {
-        Values args = pop(stack, p_.functions[i.a].params.size());
-        if (++spent_ > kMostSteps || depth >= vm::limits::kCallDepth / 2) return std::nullopt;
-        const auto results = run(i.a, std::move(args), depth + 1);
-        if (!results) return std::nullopt;
-        stack.insert(stack.end(), results->begin(), results->end());
-        break;
-      }
-      case Op::CallBuiltin: {
-        const Values results = call(i.a, pop(stack, p_.builtin_params[i.a].size()));
-        stack.insert(stack.end(), results.begin(), results.end());
-        break;
-      }
-      case Op::CallSpectral:
-        stack.push_back(spectral(i, pop(stack, p_.builtin_params[i.a].size())));
-        break;
-      case Op::Component: {
-        BoundedCell value;
-        value.r[0] = pop(stack, 1)[0].r[i.a];
-        stack.push_back(value);
-        break;
-      }
-      case Op::Pack: {
-        const Values in = pop(stack, kWavelengths);
-        BoundedCell spectrum;
-        for (std::size_t k = 0; k < in.size(); ++k) spectrum.r[k] = in[k].r[0];
-        stack.push_back(spectrum);
-        break;
-      }
-      case Op::TailCall:
-        locals = pop(stack, f.params.size());
-        locals.resize(f.locals.size());
-        if (++spent_ > kMostSteps) return std::nullopt;
-        pc = std::size_t(-1);
-        break;
-      case Op::Return:
-        return pop(stack, f.results.size());
-      default: {
-        Values in = pop(stack, vm::info(i.op).pops.size());
-        in.resize(3);
-        stack.push_back(apply(i.op, in[0], in[1], in[2]));
-      }
-    }
-  }
-}
+using BoundedMachine = vm::test::Machine<WithBounds>;
 
 }  // namespace mms::property

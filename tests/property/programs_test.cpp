@@ -3,7 +3,7 @@
 // builds of the machine, and constants in place of variables, so that the linker folds it all.
 // These give the same bits; the double machine is near by the bound of bounded.h.
 //
-// MMS_PROPERTY_PROGRAMS in the environment says how many (default 400), MMS_PROPERTY_FIRST which
+// MMS_PROPERTY_PROGRAMS in the environment says how many (default 1200), MMS_PROPERTY_FIRST which
 // seed is the first (default 1).
 #include <doctest/doctest.h>
 
@@ -51,10 +51,15 @@ std::string variables(const std::vector<float>& numbers) {
 
 /// Machines that are kept between programs: they are costly to make.
 template <class R>
-vm::Interpreter<R>& machine(int width, vm::Isa isa) {
-  static std::map<std::pair<int, vm::Isa>, vm::Interpreter<R>> all;
-  return all.try_emplace({width, isa}, width, isa).first->second;
-}
+class Machines {
+ public:
+  vm::Interpreter<R>& of(int width, vm::Isa isa) {
+    return all_.try_emplace({width, isa}, width, isa).first->second;
+  }
+
+ private:
+  std::map<std::pair<int, vm::Isa>, vm::Interpreter<R>> all_;
+};
 
 /// A script that is linked, ready to run, with all it computes.
 struct Linked {
@@ -71,8 +76,9 @@ struct Linked {
   const vm::Program& program() const { return linked->program; }
 
   template <class R>
-  Run run(std::size_t point, vm::InputBatch<R>& in, int lanes, vm::Isa isa = vm::Isa::Best) const {
-    return evaluate(machine<R>(in.width(), isa), program(), *executable, points[point], in, lanes);
+  Run run(Machines<R>& machines, std::size_t point, vm::InputBatch<R>& in, int lanes,
+          vm::Isa isa = vm::Isa::Best) const {
+    return evaluate(machines.of(in.width(), isa), program(), *executable, points[point], in, lanes);
   }
 
   std::optional<lang::Linked> linked;
@@ -84,9 +90,11 @@ struct Linked {
 /// All comparisons of one program.
 class Comparison {
  public:
-  Comparison(std::uint32_t seed, Tally& tally)
+  Comparison(std::uint32_t seed, Tally& tally, Machines<float>& m32, Machines<double>& m64)
       : seed_(seed),
         tally_(tally),
+        m32_(m32),
+        m64_(m64),
         body_(Generator(seed).script()),
         script_(variables({}) + body_) {}
 
@@ -134,20 +142,21 @@ class Comparison {
     const int width = std::min(best.executable->width(), kMostLanes);
     auto in = points<float>(width, seed_);
     for (std::size_t k = 0; k < best.points.size(); ++k) {
-      const Run whole = best.run(k, in, width);
+      const Run whole = best.run(m32_, k, in, width);
       for (const Linked& l : lower) {
         if (!l.linked || l.points.size() != best.points.size())
           return report(k, best, "it links at some levels only");
-        const Run other = l.run(k, in, width);
+        const Run other = l.run(m32_, k, in, width);
         same(best, k, whole, other, 0, width, &l == lower ? "O2 and O1" : "O2 and O0");
         if (other.faults.size() != whole.faults.size()) report(k, best, "other faults");
       }
       for (const int lanes : {1, 3, 13, 17})
-        same(best, k, whole, best.run(k, in, lanes), 0, lanes, "a batch that is not full");
-      same(best, k, whole, best.run(k, in, 17, vm::Isa::Baseline), 0, 17, "the baseline build");
+        same(best, k, whole, best.run(m32_, k, in, lanes), 0, lanes, "a batch that is not full");
+      same(best, k, whole, best.run(m32_, k, in, 17, vm::Isa::Baseline), 0, 17,
+           "the baseline build");
       for (const int lane : {2, width - 1}) {
         auto one = alone(in, lane);
-        same(best, k, whole, best.run(k, one, 1), lane, 1, "a lane alone");
+        same(best, k, whole, best.run(m32_, k, one, 1), lane, 1, "a lane alone");
       }
     }
   }
@@ -167,8 +176,9 @@ class Comparison {
     if (!constant.linked)
       return failures.push_back("it does not link with constants: " + constant.errors);
     for (std::size_t k = 0; k < best.points.size(); ++k) {
-      same_folded(best, k, best.run(k, in, 1), constant.run(k, in, 1), "folded");
-      same_folded(best, k, best.run(k, in64, 1), constant.run(k, in64, 1), "folded in double");
+      same_folded(best, k, best.run(m32_, k, in, 1), constant.run(m32_, k, in, 1), "folded");
+      same_folded(best, k, best.run(m64_, k, in64, 1), constant.run(m64_, k, in64, 1),
+                  "folded in double");
     }
   }
 
@@ -187,20 +197,35 @@ class Comparison {
   void doubles(const Linked& best) {
     auto in = points<float>(vm::kLaneMultiple, seed_);
     auto in64 = points<double>(vm::kLaneMultiple, seed_);
+    std::vector<BoundedMachine> machines;
+    for (const int lane : kDoubleLanes)
+      machines.emplace_back(best.program(), inputs(in, in64, lane));
     for (std::size_t k = 0; k < best.points.size(); ++k) {
-      const Run f = best.run(k, in, vm::kLaneMultiple), d = best.run(k, in64, vm::kLaneMultiple);
-      for (const int lane : kDoubleLanes) near(best, k, in, in64, f, d, lane);
+      const Run f = best.run(m32_, k, in, vm::kLaneMultiple),
+                d = best.run(m64_, k, in64, vm::kLaneMultiple);
+      for (std::size_t l = 0; l < machines.size(); ++l)
+        near(best, k, machines[l], f, d, kDoubleLanes[l]);
     }
   }
 
-  /// Every value of a lane lies where the machine that carries bounds says.
-  void near(const Linked& best, std::size_t k, vm::InputBatch<float>& in,
-            vm::InputBatch<double>& in64, const Run& f, const Run& d, int lane) {
+  /// The results of a machine that carries bounds; none where it cannot tell the way, or runs long.
+  static std::optional<BoundedMachine::Values> bounds(BoundedMachine& machine,
+                                                      std::uint32_t function) {
+    try {
+      return machine.run(function);
+    } catch (const Unsure&) {
+    } catch (const BoundedMachine::GivenUp&) {
+    }
+    return std::nullopt;
+  }
+
+  /// Every value of a lane lies where `machine` says.
+  void near(const Linked& best, std::size_t k, BoundedMachine& machine, const Run& f, const Run& d,
+            int lane) {
     const Point& point = best.points[k];
     const auto at = static_cast<std::size_t>(lane);
     std::optional<BoundedMachine::Values> results;
-    if (point.function)
-      results = BoundedMachine(best.program(), inputs(in, in64, lane)).run(*point.function);
+    if (point.function) results = bounds(machine, *point.function);
     std::size_t slot = 0;
     for (const vm::ValueSource& source : point.sources) {
       if (source.constant) {  // stated in the script, or folded: compared there
@@ -266,16 +291,20 @@ class Comparison {
 
   std::uint32_t seed_;
   Tally& tally_;
+  Machines<float>& m32_;
+  Machines<double>& m64_;
   std::string body_, script_;
 };
 
 TEST_CASE("random programs: all ways to run one agree, and the double machine is near") {
   const int first = setting("MMS_PROPERTY_FIRST", 1),
-            count = setting("MMS_PROPERTY_PROGRAMS", kSanitized ? 40 : 400);
+            count = setting("MMS_PROPERTY_PROGRAMS", kSanitized ? 40 : 1200);
   Tally tally;
+  Machines<float> m32;
+  Machines<double> m64;
   bool shown = false;
   for (int seed = first; seed < first + count; ++seed) {
-    Comparison c(static_cast<std::uint32_t>(seed), tally);
+    Comparison c(static_cast<std::uint32_t>(seed), tally, m32, m64);
     c.run();
     for (const std::string& f : c.failures) FAIL_CHECK(f);
     if (!c.failures.empty() && !std::exchange(shown, true)) MESSAGE(c.script());
