@@ -77,7 +77,8 @@ TEST_CASE("signatures, examples, derivative rules and modules have no syntax err
   }
   for (const Module& module : modules()) {
     INFO(module.name);
-    CHECK(!errors(std::string(module.text), lang::parse));
+    CHECK(!errors(std::string(module.text),
+                  [](auto source, auto& d) { return lang::parse(std::move(source), d); }));
   }
   REQUIRE(!modules().empty());
   CHECK(modules()[0].name == "prelude");
