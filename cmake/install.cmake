@@ -34,6 +34,9 @@ endif()
 
 install(FILES ${PROJECT_SOURCE_DIR}/api/mms.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS mms)
+if(TARGET mms-render)  # which `mms render` starts
+  install(TARGETS mms-render)
+endif()
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/mms)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/mms-config.cmake.in mms-config.cmake
