@@ -314,9 +314,9 @@ class Elaborator {
 
   // --- items and descriptors (elaborate_top.cpp) ---
   void add_graph(const Graph& graph, Scope* scope);
+  std::string import_key(const std::string& name) const;
   void import(const Graph& from, const Import& i, Scope* scope);
   void add_params(const Graph& graph, Scope* scope);
-  std::string key_of(const Graph& graph) const;
   bool closes_circle(const std::string& key, const Import& i);
   std::vector<NamedDescriptor> find_descriptors(Context c, const Path& path);
   void export_alias(const Alias& a);

@@ -221,7 +221,8 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
         // The shape of emission in a volume is a phase function, 1 for the isotropic one.
         params_.resize(std::max(1, volume.shade_emission.param_count()));
         scripts_.params(d.shade.emission_material, i, params_.data());
-        f.emission *= volume_emission_shape(volume.shade_emission, params_.data(), -f.direction);
+        f.emission *=
+            materials::volume_emission_shape(volume.shade_emission, params_.data(), -f.direction);
       }
       if (need == Need::Collision) collide(f, volume, paths[f.path]);
     }

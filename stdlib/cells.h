@@ -9,11 +9,14 @@
 
 namespace mms::stdlib::MMS_ISA {
 
-/// Hash of the numbers themselves, as floats in either machine; -0 counts as 0.
+/// The bits of a float for hashing: -0 counts as 0, and every NaN as one (which NaN an operation
+/// gives is the processor's choice).
+MMS_INLINE Bits bits_of(float x) { return x == x ? bits<Bits>(x + 0.0f) : Bits(0x7fc00000u); }
+/// Hash of the numbers themselves, as floats in either machine.
 template <class R, class... Rs>
 MMS_INLINE Bits hash_of(Rs... x) {
   Bits h = kSeed ^ Bits(sizeof...(x));
-  ((h = mix(h, bits<Bits>(float(x) + 0.0f))), ...);
+  ((h = mix(h, bits_of(float(x)))), ...);
   return finish(h);
 }
 /// Hash of the unit cell that holds a point.

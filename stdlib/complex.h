@@ -43,10 +43,14 @@ MMS_INLINE SinCos signed_sin_cos(double x) {
   return {x == 0 ? x : s.sin, s.cos};
 }
 
+/// Where the angle is no number: 0 for a real part of -inf, and an infinite real part for inf
+/// (C99).
 MMS_INLINE Complex exp_complex(Complex z) {
   const double m = exp_core(z.re);
   const SinCos a = signed_sin_cos(z.im);
-  return {m * a.cos, damped(a.sin, m)};
+  const bool angle = a.cos == a.cos, none = !angle & (z.re == -kInf<double>);
+  const double re = none ? 0.0 : !angle & (z.re == kInf<double>) ? kInf<double> : m * a.cos;
+  return {re, none ? 0.0 : damped(a.sin, m)};
 }
 
 /// log |z| is taken from |z|^2 - 1, of which every term is exact in double where z is float.
@@ -64,7 +68,7 @@ MMS_INLINE Complex log_complex(Complex z) {
 MMS_INLINE Complex sqrt_complex(Complex z) {
   const double x = magnitude(z.re), y = magnitude(z.im);
   const double m = root(0.5 * (x + root(x * x + y * y)));
-  const double n = m > 0 ? 0.5 * y / m : 0.0;
+  const double n = m == 0 ? 0.0 : 0.5 * y / m;  // NaN stays NaN
   const bool right = with_sign(1.0, z.re) > 0;
   const Complex r = {right ? m : n, with_sign(right ? n : m, z.im)};
   // C99: an infinite imaginary part wins over everything, then an infinite real part.

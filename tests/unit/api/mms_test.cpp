@@ -12,9 +12,13 @@
 
 #include <doctest/doctest.h>
 
+#include "linked.h"
+
 extern "C" int heights_from_c(float* heights);
 
 namespace {
+
+using mms::api::Linked;
 
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -45,28 +49,6 @@ const char* const kMySurface =
     "  gradient = [$position[1], 3.0];\n"
     "end\n";
 const char* const kMarble = "real marble_albedo(real x) = 2 * x;\n";
-
-/// A program of one script that links, and a context for it.
-struct Linked {
-  explicit Linked(const std::string& script) {
-    MMsGraph* graph = mmsMkGraph();
-    if (mmsParseString(*graph, script) && mmsAddGraph(*program, *graph) &&
-        mmsLinkProgram(*program, mms::O2))
-      context = mmsMkContext(*program);
-    log = std::string(mmsGetGraphLog(*graph)) + mmsGetProgramLog(*program);
-    mmsDeleteGraph(graph);
-  }
-  ~Linked() {
-    mmsDeleteContext(context);
-    mmsDeleteProgram(program);
-  }
-  Linked(const Linked&) = delete;
-  Linked& operator=(const Linked&) = delete;
-
-  MMsProgram* program = mmsMkProgram();
-  MMsContext* context = nullptr;
-  std::string log;
-};
 
 /// What the surface of Algorithm 6.2 must evaluate to.
 void check_surface(const MMsProgram& program, const Surface& surface) {

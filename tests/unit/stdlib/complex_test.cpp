@@ -81,7 +81,7 @@ TEST_CASE("both parts of every complex function are within the stated error") {
 
 TEST_CASE("infinities and signed zeros of exp, log and sqrt are those of C99") {
   const float inf = INFINITY;
-  const float parts[] = {0.0f, -0.0f, 1.0f, -1.0f, inf, -inf};
+  const float parts[] = {0.0f, -0.0f, 1.0f, -1.0f, inf, -inf, NAN};
   for (std::string_view name : {"log", "sqrt"})
     for (float re : parts)
       for (float im : parts) {
@@ -99,6 +99,21 @@ TEST_CASE("infinities and signed zeros of exp, log and sqrt are those of C99") {
       CHECK(same_bits(got[0][0], float(exact.real())));
       CHECK(same_bits(got[1][0], float(exact.imag())));
     }
+}
+
+TEST_CASE("exp of an infinite real part where the angle is no number is that of C99") {
+  for (float im : {INFINITY, -INFINITY, float(NAN)}) {
+    INFO(im);
+    const auto none = run<float>(row_of("exp"), {{-INFINITY}, {im}});
+    CHECK(none[0][0] == 0.0f);  // of either sign
+    CHECK(none[1][0] == 0.0f);
+    const auto all = run<float>(row_of("exp"), {{INFINITY}, {im}});
+    CHECK(std::fabs(all[0][0]) == INFINITY);
+    CHECK(std::isnan(all[1][0]));
+    const auto neither = run<float>(row_of("exp"), {{-800.0f}, {im}});
+    CHECK(std::isnan(neither[0][0]));
+    CHECK(std::isnan(neither[1][0]));
+  }
 }
 
 TEST_CASE("complex pow, powi, polar, abs, arg") {
