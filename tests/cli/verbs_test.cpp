@@ -232,7 +232,7 @@ TEST_CASE("--deps lists what is imported: lines, a rule for make, or JSON") {
   folder.write("deep.mms", "real deep() = 1;\n");
   folder.write("s.mms",
                "import \"a part.mms\";\nimport \"noise\" as n;\n"
-               "surface s bsdf = matte(half * n.turbulence($position, 2)); end\n");
+               "surface s bsdf = matte(half * n::turbulence($position, 2)); end\n");
   for (const std::string verb : {"check", "info"}) {
     CHECK(folder.mms(verb + " --deps s.mms").out == "a part.mms\ndeep.mms\n");
     CHECK(folder.mms(verb + " --deps=make s.mms").out == "s.png: s.mms a\\ part.mms deep.mms\n");
