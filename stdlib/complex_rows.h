@@ -76,6 +76,59 @@ inline constexpr vm::Builtin kComplexRows[] = {
                               .derivative = "1 - tanh(z) * tanh(z)",
                               .max_ulp = 0.51,
                               .cost = 95}),
+    vm::builtin<ComplexAsin>(
+        {.signature = "complex asin(complex z)",
+         .module = "math",
+         .doc = "Principal inverse sine: real part in [-pi/2, pi/2], cut along the real axis "
+                "beyond -1 and 1 (a zero imaginary part has a side: its sign).",
+         .example = "asin(0.5 + 0.25i)",
+         .derivative = "1 / sqrt(1 - z * z)",
+         .max_ulp = 0.51,
+         .cost = 200}),
+    vm::builtin<ComplexAcos>(
+        {.signature = "complex acos(complex z)",
+         .module = "math",
+         .doc = "Principal inverse cosine: real part in [0, pi]; cuts as asin.",
+         .example = "acos(0.5 + 0.25i)",
+         .derivative = "-1 / sqrt(1 - z * z)",
+         .max_ulp = 0.51,
+         .cost = 200}),
+    vm::builtin<ComplexAtan>(
+        {.signature = "complex atan(complex z)",
+         .module = "math",
+         .doc = "Principal inverse tangent: real part in [-pi/2, pi/2], cut along the imaginary "
+                "axis beyond -i and i, where it is infinite.",
+         .example = "atan(0.5 + 0.25i)",
+         .derivative = "1 / (1 + z * z)",
+         .max_ulp = 0.51,
+         .cost = 95}),
+    vm::builtin<ComplexAsinh>(
+        {.signature = "complex asinh(complex z)",
+         .module = "math",
+         .doc = "Principal inverse hyperbolic sine: imaginary part in [-pi/2, pi/2], cut along the "
+                "imaginary axis beyond -i and i.",
+         .example = "asinh(0.5 + 0.25i)",
+         .derivative = "1 / sqrt(1 + z * z)",
+         .max_ulp = 0.51,
+         .cost = 200}),
+    vm::builtin<ComplexAcosh>(
+        {.signature = "complex acosh(complex z)",
+         .module = "math",
+         .doc = "Principal inverse hyperbolic cosine: real part not below 0, imaginary part in "
+                "[-pi, pi], cut along the real axis below 1.",
+         .example = "acosh(0.5 + 0.25i)",
+         .derivative = "1 / (sqrt(z - 1) * sqrt(z + 1))",
+         .max_ulp = 0.51,
+         .cost = 200}),
+    vm::builtin<ComplexAtanh>(
+        {.signature = "complex atanh(complex z)",
+         .module = "math",
+         .doc = "Principal inverse hyperbolic tangent: imaginary part in [-pi/2, pi/2], cut along "
+                "the real axis beyond -1 and 1, where it is infinite.",
+         .example = "atanh(0.5 + 0.25i)",
+         .derivative = "1 / (1 - z * z)",
+         .max_ulp = 0.51,
+         .cost = 95}),
     vm::builtin<Conj>({.signature = "complex conj(complex z)",
                        .module = "math",
                        .doc = "The number with its imaginary part negated.",
@@ -90,7 +143,9 @@ inline constexpr vm::Builtin kComplexRows[] = {
                              .example = "pow(0.5 + 0.25i, 2 + 1i)",
                              .derivative = "w * pow(z, w - 1); pow(z, w) * log(z)",
                              .max_ulp = 0.51,
-                             .cost = 730}),
+                             .domain = "of the modulus, where |w log z| is below 2^20: beyond, "
+                                       "the angle is off by 2^-52 of itself",
+                             .cost = 240}),
     vm::builtin<ComplexPowI>({.signature = "complex powi(complex z, integer n)",
                               .module = "math",
                               .doc = "z multiplied by itself n times; what `z ^ n` means for an "

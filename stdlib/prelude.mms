@@ -47,6 +47,3 @@ end;
 
 /// a - b floor(a / b), as `a % b`: has the sign of b.
 real mod(real a, b) = a % b;
-
-/// a - b trunc(a / b): has the sign of a.
-real fmod(real a, b) = a - b * trunc(a / b);

@@ -41,7 +41,8 @@ std::string_view or_dash(std::string_view text) { return text.empty() ? "-" : te
 
 std::string accuracy(const vm::Builtin& row) {
   if (row.max_ulp == 0) return "";
-  return fmt::format(" Within {:g} ulp in float.", row.max_ulp);
+  return fmt::format(" Within {:g} ulp in float{}{}.", row.max_ulp, row.domain.empty() ? "" : ": ",
+                     row.domain);
 }
 
 std::string entry(const vm::Builtin& row) {
