@@ -57,7 +57,8 @@ std::uint32_t Elaborator::source_index(const Source* s) {
 
 vm::SourceLine Elaborator::line_of(Span s) {
   if (!s.source) return line_;
-  return {source_index(s.source), position_at(*s.source, s.begin).line};
+  const Position at = position_at(*s.source, s.begin);
+  return {source_index(s.source), at.line, at.column};
 }
 
 void Elaborator::load_library() {

@@ -10,7 +10,7 @@
 /// The class is one; its members are implemented by theme: elaborate_names.cpp (scopes, types),
 /// elaborate_values.cpp (nodes, conversions, operators), elaborate_expr.cpp (expressions),
 /// elaborate_call.cpp (overloads), elaborate_recursion.cpp (inlining), elaborate_top.cpp (items,
-/// descriptors), derive.cpp (derivatives).
+/// descriptors), derive.cpp and derive_rules.cpp (derivatives).
 
 #include <deque>
 #include <set>
@@ -210,10 +210,18 @@ class Elaborator {
   using Tangents = std::map<Ref, Ref>;  ///< derivative of a real value; not there: zero
   std::optional<Ref> tangent(const Tangents& t, Ref r) const;
   void derive_node(std::uint32_t index, int direction, Tangents& t);
-  void derive_builtin(const Node& n, Ref r, Tangents& t);
+  Ref derived_op(vm::Op op, vm::Op spectral, std::vector<Ref> args);
   std::uint16_t derive_function(std::uint16_t function, int direction);
   Ref sum(std::optional<Ref> a, std::optional<Ref> b);
   Value derive_gradient(const Value& height, Span span);
+
+  // --- rules of the library's rows (derive_rules.cpp) ---
+  void derive_builtin(const Node& n, Ref r, int direction, Tangents& t);
+  Value rule_value(const vm::Builtin& row, std::string_view rule, Scope* scope);
+  std::vector<Ref> partials_of(const Value& rule, TypeId formal, TypeId result);
+  void add_partial(Tangents& t, Ref r, Ref partial, Ref dx);
+  void derive_twin(const Value& twin, std::uint32_t first, const std::vector<Ref>& results,
+                   int direction, Tangents& t);
 
   // --- items and descriptors (elaborate_top.cpp) ---
   void load_library();

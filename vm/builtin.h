@@ -34,8 +34,11 @@ struct Builtin {
   /// One expression that uses it; the tests run it.
   std::string_view example{};
   /// Derivative rule: for each formal, separated by `;`, the partial derivative of the result as
-  /// an expression in the language over the formals (an array for an array formal). Empty where
-  /// there is none (integer results, materials).
+  /// an expression in the language over the formals. An array formal wants an array, a result of
+  /// several parts an array of such; a complex number for a complex formal and result is the
+  /// complex derivative. A choice is differentiated arm by arm, a step has derivative 0. Or
+  /// `= expression`: the derivative is that of the expression, which has the row's value. Empty
+  /// for integer results and materials alone.
   std::string_view derivative{};
   /// Largest error of the float kernel against the exact result of its float arguments, in ulp of
   /// the result; 0 means exactly rounded or exact. Of a complex result, of its parts.

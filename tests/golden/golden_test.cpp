@@ -89,6 +89,7 @@ const std::map<std::string, std::string> kElsewhere = {
     {"E0162", "a source of 64 MiB: limits_test.cpp"},
     {"E0303", "a million operations: limits_test.cpp"},
     {"E0306", "an option of the command line, without a place in a script: limits_test.cpp"},
+    {"E0310", "a library function without a rule: limits_test.cpp"},
     {"E0307", "4097 recursive functions: limits_test.cpp"},
 };
 

@@ -3,6 +3,7 @@
 // past it, which says so. What is too long for a file under tests/golden is written here.
 #include <doctest/doctest.h>
 
+#include "stdlib/stdlib.h"
 #include "tests/golden/evaluate.h"
 #include "vm/limits.h"
 
@@ -126,6 +127,20 @@ TEST_CASE("elements of an array") {
   const Codes all = codes(array(limits::kAggregate + 1));
   REQUIRE(!all.empty());
   for (const std::string& code : all) CHECK(code == "E0223");
+}
+
+TEST_CASE("a library function without a derivative rule") {
+  std::vector<vm::Builtin> rows(stdlib::builtins().begin(), stdlib::builtins().end());
+  for (vm::Builtin& row : rows)
+    if (row.signature == "real sin(real x)") row.derivative = {};
+  const auto source = lang::make_source("test.mms", "surface s height = sin($uv.x); end\n");
+  lang::Library library = api::standard_library();
+  library.builtins = rows;
+  Compiled c;
+  c.source = source;
+  c.graphs.push_back(lang::parse(source, c.diagnostics));
+  c.linked = lang::link(c.graphs, library, {}, c.diagnostics);
+  CHECK(codes(c) == Codes{"E0310"});
 }
 
 TEST_CASE("lobes of a material") {
