@@ -13,11 +13,14 @@ Verb render_verb();
 Verb info_verb();
 Verb eval_verb();
 Verb disasm_verb();
+Verb accuracy_verb();
+Verb profile_verb();
 Verb explain_verb();
 Verb doc_verb();
 
 /// In the order of `mms --help`.
-inline constexpr Verb (*kVerbs[])() = {check_verb,  render_verb,  info_verb, eval_verb,
-                                       disasm_verb, explain_verb, doc_verb};
+inline constexpr Verb (*kVerbs[])() = {check_verb,   render_verb,  info_verb,
+                                       eval_verb,    disasm_verb,  accuracy_verb,
+                                       profile_verb, explain_verb, doc_verb};
 
 }  // namespace mms::tools

@@ -8,11 +8,14 @@
 
 #include <fmt/format.h>
 
+#include "api/accuracy.h"
+#include "api/excerpts.h"
 #include "api/inputs.h"
 #include "api/library.h"
 #include "tools/commands.h"
 #include "tools/script.h"
 #include "vm/interpreter.h"
+#include "vm/trace.h"
 
 namespace mms::tools {
 
@@ -24,6 +27,7 @@ struct EvalOptions : ScriptOptions {
   std::string item;
   std::vector<std::string> settings;
   std::string precision = "float";
+  bool trace = false;
 };
 
 /// `1, 2, 3` as numbers, or nothing.
@@ -95,14 +99,52 @@ std::string text_of(const vm::Interpreter<R>& machine, const vm::Function& f,
   return fmt::format("{}{}{}", array ? "[" : type + "(", fmt::join(parts, ", "), array ? "]" : ")");
 }
 
+std::string value_text(const vm::TracedValue& v, bool single) {
+  const auto number = [&](double x) -> std::string {
+    if (x != x) return "nan";
+    return single ? fmt::format("{}", static_cast<float>(x)) : fmt::format("{}", x);
+  };
+  if (v.type == vm::SlotType::Real) return number(v.real[0]);
+  if (v.type == vm::SlotType::Integer) return fmt::format("{}", v.integer);
+  if (v.type == vm::SlotType::Logic) return v.integer ? "true" : "false";
+  std::vector<std::string> parts;
+  for (const double x : v.real) parts.push_back(number(x));
+  return fmt::format("spectrum({})", fmt::join(parts, ", "));
+}
+
+/// One line for each value: where, what the source says there, the value.
 template <class R>
-Exit run(const vm::Program& program, const EvalOptions& options, const std::string& expression) {
+void print_trace(const vm::Program& program, std::uint32_t function, vm::InputBatch<R>& in,
+                 api::Excerpts& excerpts) {
+  const vm::Trace trace = vm::trace(program, function, in, 0);
+  constexpr bool single = sizeof(R) == sizeof(float);
+  for (const vm::TraceStep& s : trace.steps) {
+    const vm::Op op = program.functions[s.function].code[s.instruction].op;
+    fmt::print("{:<20} {:<12} {:<44} {}{}\n", api::place(program, s.line), vm::info(op).name,
+               excerpts.from_column(s.line),
+               std::string(2 * static_cast<std::size_t>(s.depth), ' '),
+               value_text(s.value, single));
+  }
+  if (trace.step_count > trace.steps.size())
+    fmt::print("... and {} more\n", trace.step_count - trace.steps.size());
+  for (const vm::TracedValue& v : trace.results)
+    if (v.origin >= 0) {
+      const vm::SourceLine at = trace.origins[static_cast<std::size_t>(v.origin)].line;
+      fmt::print("{} was first made at {}: {}\n", value_text(v, single), api::place(program, at),
+                 excerpts.line(at));
+    }
+}
+
+template <class R>
+Exit run(const vm::Program& program, const EvalOptions& options, const std::string& expression,
+         const std::vector<lang::SourcePtr>& sources) {
   const vm::Executable executable(program);
   vm::InputBatch<R> in(vm::kLaneMultiple);
   api::fill_defaults(in);
   for (const std::string& text : options.settings)
     if (const auto done = set(in, text); !done) return fail(Exit::Usage, done.error(), options);
   vm::Interpreter<R> machine(vm::kLaneMultiple);
+  api::Excerpts excerpts(program, sources);
   bool printed = expression.empty();
   for (const vm::Export& e : program.exports) {
     if (!expression.empty() && e.name != kName) continue;
@@ -121,6 +163,7 @@ Exit run(const vm::Program& program, const EvalOptions& options, const std::stri
                  : "check the condition that ends it"},
           options);
     }
+    if (options.trace) print_trace(program, e.function, in, excerpts);
     const std::string text = text_of(machine, program.functions[e.function], e.type);
     if (expression.empty())
       fmt::print("{} = {}\n", e.name, text);
@@ -154,8 +197,8 @@ Exit eval(const EvalOptions& options) {
   Exit exit = Exit::Ok;
   const auto linked = compile(sources, options, exit);
   if (!linked) return exit;
-  return options.precision == "double" ? run<double>(linked->program, options, expression)
-                                       : run<float>(linked->program, options, expression);
+  return options.precision == "double" ? run<double>(linked->program, options, expression, sources)
+                                       : run<float>(linked->program, options, expression, sources);
 }
 
 }  // namespace
@@ -166,6 +209,7 @@ Verb eval_verb() {
       "eval",
       "Print the value of an expression, or of a script's constants",
       "Examples:\n  mms eval '2^0.5'\n  mms eval --set position=1,2,3 'perlin($position)'\n"
+      "  mms eval --trace -O0 --set position=0,0,0 'sqrt($position.x) / $position.y'\n"
       "  mms eval -- '-1 % 3'\n  mms eval -f marble.mms 'ridged($object_position, 6, 0.5, 0.0)'",
       {},
       [options] { return eval(*options); }};
@@ -183,6 +227,7 @@ Verb eval_verb() {
             "TYPE",
             "float, as in pictures, or double",
             {"float", "double"}});
+  verb.add({"--trace", &options->trace, "", "Print every value on the way, with its source"});
   add_script_options(verb, *options);
   return verb;
 }

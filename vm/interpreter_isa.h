@@ -33,7 +33,7 @@ class Frame {
 
   void run() {
     if (f_.loops) clear(mask(1));
-    do pass();
+    do m_.watch ? pass<true>() : pass<false>();
     while (f_.loops && restart());
   }
 
@@ -279,7 +279,8 @@ class Frame {
     return left;
   }
 
-  /// The code once, from its start to its end.
+  /// The code once, from its start to its end; telling the watcher of each instruction, if watched.
+  template <bool watched>
   void pass();
 
   Machine& m_;
@@ -290,11 +291,13 @@ class Frame {
 };
 
 template <class R>
+template <bool watched>
 void Frame<R>::pass() {
   using L = int32_t;
   const LoweredInstruction* code = m_.code;
   for (uint32_t pc = f_.begin;; ++pc) {
     const In& i = code[pc];
+    if constexpr (watched) m_.watch(m_.watcher, pc);
     switch (i.op) {
       case LoweredOp::AddR:
         binary<Add, R, R>(i);

@@ -44,10 +44,11 @@ TEST_CASE("help and version") {
   CHECK(version.out.starts_with("mms "));
   const Outcome help = folder.mms("--help");
   CHECK(help.exit == 0);
-  for (const char* part : {"check", "render", "info", "eval", "disasm", "explain", "doc",
-                           "Exit codes", "Examples", "70", "130"})
+  for (const char* part : {"check", "render", "info", "eval", "disasm", "accuracy", "profile",
+                           "explain", "doc", "Exit codes", "Examples", "70", "130"})
     CHECK(contains(help.out, part));
-  for (const char* verb : {"check", "render", "info", "eval", "disasm", "explain", "doc"}) {
+  for (const char* verb :
+       {"check", "render", "info", "eval", "disasm", "accuracy", "profile", "explain", "doc"}) {
     const Outcome run = folder.mms(std::string(verb) + " --help");
     INFO(verb);
     CHECK(run.exit == 0);
