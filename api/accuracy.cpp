@@ -15,15 +15,6 @@ namespace mms::api {
 
 namespace {
 
-struct NamedEntry {
-  const char* name;
-  const vm::Entry vm::Descriptor::*entry;
-};
-constexpr NamedEntry kEntries[] = {{"shade", &vm::Descriptor::shade},
-                                   {"pass", &vm::Descriptor::pass},
-                                   {"emit", &vm::Descriptor::emit},
-                                   {"displace", &vm::Descriptor::displace}};
-
 /// One output while its errors are collected.
 struct Collected {
   OutputAccuracy report;

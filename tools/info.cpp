@@ -19,15 +19,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct NamedEntry {
-  const char* name;
-  const vm::Entry vm::Descriptor::*entry;
-};
-constexpr NamedEntry kEntries[] = {{"shade", &vm::Descriptor::shade},
-                                   {"pass", &vm::Descriptor::pass},
-                                   {"emit", &vm::Descriptor::emit},
-                                   {"displace", &vm::Descriptor::displace}};
-
 std::size_t instructions(const vm::Program& program, const vm::Entry& entry) {
   return entry.function ? program.functions[*entry.function].code.size() : 0;
 }
@@ -67,7 +58,7 @@ Json to_json(const vm::Program& program, const vm::Descriptor& d) {
   json["name"] = d.name;
   json["file"] = d.line.source < program.sources.size() ? program.sources[d.line.source] : "";
   json["line"] = d.line.line;
-  for (const NamedEntry& e : kEntries)
+  for (const api::NamedEntry& e : api::kEntries)
     json["instructions"][e.name] = instructions(program, d.*e.entry);
   for (int i = 0; i < static_cast<int>(vm::Output::Count); ++i) {
     const auto output = static_cast<vm::Output>(i);
