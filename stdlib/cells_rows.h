@@ -84,15 +84,31 @@ inline constexpr vm::Builtin kCellsRows[] = {
          .module = "noise",
          .doc = "Distances to the nearest and to the second nearest point of `worley`.",
          .example = "worley_pair([0.3, 0.7])",
-         .derivative = "",
+         .derivative = "[worley_gradient(p), worley_second_gradient(p)]",
          .cost = 160}),
     vm::builtin<WorleyGradient2>({.signature = "real[2] worley_gradient(real[2] p)",
                                   .module = "noise",
                                   .doc = "Gradient of `worley`: the unit vector away from the "
                                          "nearest point; 0 at the point itself.",
                                   .example = "worley_gradient([0.3, 0.7])",
-                                  .derivative = "",
+                                  .derivative =
+                                      "[[1 - worley_gradient(p)[0] * worley_gradient(p)[0], "
+                                      "-worley_gradient(p)[0] * worley_gradient(p)[1]], "
+                                      "[-worley_gradient(p)[1] * worley_gradient(p)[0], 1 - "
+                                      "worley_gradient(p)[1] * worley_gradient(p)[1]]] / worley(p)",
                                   .cost = 85}),
+    vm::builtin<WorleySecondGradient2>(
+        {.signature = "real[2] worley_second_gradient(real[2] p)",
+         .module = "noise",
+         .doc = "Gradient of the second part of `worley_pair`: the unit vector away from the "
+                "second nearest point.",
+         .example = "worley_second_gradient([0.3, 0.7])",
+         .derivative = "[[1 - worley_second_gradient(p)[0] * worley_second_gradient(p)[0], "
+                       "-worley_second_gradient(p)[0] * worley_second_gradient(p)[1]], "
+                       "[-worley_second_gradient(p)[1] * worley_second_gradient(p)[0], 1 - "
+                       "worley_second_gradient(p)[1] * worley_second_gradient(p)[1]]] / "
+                       "worley_pair(p)[1]",
+         .cost = 190}),
     vm::builtin<Voronoi2>(
         {.signature = "real voronoi(real[2] p)",
          .module = "noise",
@@ -113,15 +129,41 @@ inline constexpr vm::Builtin kCellsRows[] = {
          .module = "noise",
          .doc = "Distances to the nearest and to the second nearest point of `worley`.",
          .example = "worley_pair([0.3, 0.7, 1.9])",
-         .derivative = "",
+         .derivative = "[worley_gradient(p), worley_second_gradient(p)]",
          .cost = 590}),
-    vm::builtin<WorleyGradient3>({.signature = "real[3] worley_gradient(real[3] p)",
-                                  .module = "noise",
-                                  .doc = "Gradient of `worley`: the unit vector away from the "
-                                         "nearest point; 0 at the point itself.",
-                                  .example = "worley_gradient([0.3, 0.7, 1.9])",
-                                  .derivative = "",
-                                  .cost = 390}),
+    vm::builtin<WorleyGradient3>(
+        {.signature = "real[3] worley_gradient(real[3] p)",
+         .module = "noise",
+         .doc = "Gradient of `worley`: the unit vector away from the "
+                "nearest point; 0 at the point itself.",
+         .example = "worley_gradient([0.3, 0.7, 1.9])",
+         .derivative = "[[1 - worley_gradient(p)[0] * worley_gradient(p)[0], "
+                       "-worley_gradient(p)[0] * worley_gradient(p)[1], "
+                       "-worley_gradient(p)[0] * worley_gradient(p)[2]], "
+                       "[-worley_gradient(p)[1] * worley_gradient(p)[0], 1 - "
+                       "worley_gradient(p)[1] * worley_gradient(p)[1], -worley_gradient(p)[1] "
+                       "* worley_gradient(p)[2]], [-worley_gradient(p)[2] * "
+                       "worley_gradient(p)[0], -worley_gradient(p)[2] * "
+                       "worley_gradient(p)[1], 1 - worley_gradient(p)[2] * "
+                       "worley_gradient(p)[2]]] / worley(p)",
+         .cost = 390}),
+    vm::builtin<WorleySecondGradient3>(
+        {.signature = "real[3] worley_second_gradient(real[3] p)",
+         .module = "noise",
+         .doc = "Gradient of the second part of `worley_pair`: the unit vector away from the "
+                "second nearest point.",
+         .example = "worley_second_gradient([0.3, 0.7, 1.9])",
+         .derivative = "[[1 - worley_second_gradient(p)[0] * worley_second_gradient(p)[0], "
+                       "-worley_second_gradient(p)[0] * worley_second_gradient(p)[1], "
+                       "-worley_second_gradient(p)[0] * worley_second_gradient(p)[2]], "
+                       "[-worley_second_gradient(p)[1] * worley_second_gradient(p)[0], 1 - "
+                       "worley_second_gradient(p)[1] * worley_second_gradient(p)[1], "
+                       "-worley_second_gradient(p)[1] * worley_second_gradient(p)[2]], "
+                       "[-worley_second_gradient(p)[2] * worley_second_gradient(p)[0], "
+                       "-worley_second_gradient(p)[2] * worley_second_gradient(p)[1], 1 - "
+                       "worley_second_gradient(p)[2] * worley_second_gradient(p)[2]]] / "
+                       "worley_pair(p)[1]",
+         .cost = 720}),
     vm::builtin<Voronoi3>(
         {.signature = "real voronoi(real[3] p)",
          .module = "noise",

@@ -22,7 +22,7 @@ inline constexpr vm::Builtin kNoiseRows[] = {
                                   .module = "noise",
                                   .doc = "Exact derivative of `perlin`.",
                                   .example = "perlin_gradient(0.3)",
-                                  .derivative = "",
+                                  .derivative = "perlin_derivative(x, 2)",
                                   .cost = 15}),
     vm::builtin<Perlin2>({.signature = "real perlin(real[2] p)",
                           .module = "noise",
@@ -35,7 +35,9 @@ inline constexpr vm::Builtin kNoiseRows[] = {
                                   .module = "noise",
                                   .doc = "Exact gradient of `perlin`.",
                                   .example = "perlin_gradient([0.3, 0.7])",
-                                  .derivative = "",
+                                  .derivative =
+                                      "[[perlin_derivative(p, 2, 0), perlin_derivative(p, 1, 1)], "
+                                      "[perlin_derivative(p, 1, 1), perlin_derivative(p, 0, 2)]]",
                                   .cost = 50}),
     vm::builtin<Perlin3>({.signature = "real perlin(real[3] p)",
                           .module = "noise",
@@ -44,12 +46,17 @@ inline constexpr vm::Builtin kNoiseRows[] = {
                           .example = "perlin([0.3, 0.7, 1.9])",
                           .derivative = "perlin_gradient(p)",
                           .cost = 110}),
-    vm::builtin<PerlinGradient3>({.signature = "real[3] perlin_gradient(real[3] p)",
-                                  .module = "noise",
-                                  .doc = "Exact gradient of `perlin`.",
-                                  .example = "perlin_gradient([0.3, 0.7, 1.9])",
-                                  .derivative = "",
-                                  .cost = 130}),
+    vm::builtin<PerlinGradient3>(
+        {.signature = "real[3] perlin_gradient(real[3] p)",
+         .module = "noise",
+         .doc = "Exact gradient of `perlin`.",
+         .example = "perlin_gradient([0.3, 0.7, 1.9])",
+         .derivative = "[[perlin_derivative(p, 2, 0, 0), perlin_derivative(p, 1, 1, 0), "
+                       "perlin_derivative(p, 1, 0, 1)], [perlin_derivative(p, 1, 1, 0), "
+                       "perlin_derivative(p, 0, 2, 0), perlin_derivative(p, 0, 1, 1)], "
+                       "[perlin_derivative(p, 1, 0, 1), perlin_derivative(p, 0, 1, 1), "
+                       "perlin_derivative(p, 0, 0, 2)]]",
+         .cost = 130}),
     vm::builtin<Perlin4>({.signature = "real perlin(real[4] p)",
                           .module = "noise",
                           .doc = "Gradient noise in 4 dimensions: smooth (its second derivative is "
@@ -57,12 +64,58 @@ inline constexpr vm::Builtin kNoiseRows[] = {
                           .example = "perlin([0.3, 0.7, 1.9, 2.2])",
                           .derivative = "perlin_gradient(p)",
                           .cost = 250}),
-    vm::builtin<PerlinGradient4>({.signature = "real[4] perlin_gradient(real[4] p)",
-                                  .module = "noise",
-                                  .doc = "Exact gradient of `perlin`.",
-                                  .example = "perlin_gradient([0.3, 0.7, 1.9, 2.2])",
-                                  .derivative = "",
-                                  .cost = 330}),
+    vm::builtin<PerlinGradient4>(
+        {.signature = "real[4] perlin_gradient(real[4] p)",
+         .module = "noise",
+         .doc = "Exact gradient of `perlin`.",
+         .example = "perlin_gradient([0.3, 0.7, 1.9, 2.2])",
+         .derivative = "[[perlin_derivative(p, 2, 0, 0, 0), perlin_derivative(p, 1, 1, 0, 0), "
+                       "perlin_derivative(p, 1, 0, 1, 0), perlin_derivative(p, 1, 0, 0, 1)], "
+                       "[perlin_derivative(p, 1, 1, 0, 0), perlin_derivative(p, 0, 2, 0, 0), "
+                       "perlin_derivative(p, 0, 1, 1, 0), perlin_derivative(p, 0, 1, 0, 1)], "
+                       "[perlin_derivative(p, 1, 0, 1, 0), perlin_derivative(p, 0, 1, 1, 0), "
+                       "perlin_derivative(p, 0, 0, 2, 0), perlin_derivative(p, 0, 0, 1, 1)], "
+                       "[perlin_derivative(p, 1, 0, 0, 1), perlin_derivative(p, 0, 1, 0, 1), "
+                       "perlin_derivative(p, 0, 0, 1, 1), perlin_derivative(p, 0, 0, 0, 2)]]",
+         .cost = 330}),
+    vm::builtin<PerlinDerivative1>(
+        {.signature = "real perlin_derivative(real x, integer n)",
+         .module = "noise",
+         .doc = "Derivative of order n of `perlin`; a negative order counts as 0.",
+         .example = "perlin_derivative(0.3, 2)",
+         .derivative = "perlin_derivative(x, max(n, 0) + 1); 0",
+         .cost = 25}),
+    vm::builtin<PerlinDerivative2>(
+        {.signature = "real perlin_derivative(real[2] p, integer i, j)",
+         .module = "noise",
+         .doc = "Mixed derivative of `perlin`: i and j times along the axes in turn; a "
+                "negative order counts as 0.",
+         .example = "perlin_derivative([0.3, 0.7], 2, 0)",
+         .derivative = "[perlin_derivative(p, max(i, 0) + 1, j), perlin_derivative(p, i, max(j, 0) "
+                       "+ 1)]; 0; 0",
+         .cost = 70}),
+    vm::builtin<PerlinDerivative3>(
+        {.signature = "real perlin_derivative(real[3] p, integer i, j, k)",
+         .module = "noise",
+         .doc = "Mixed derivative of `perlin`: i, j and k times along the axes in "
+                "turn; a negative order counts as 0.",
+         .example = "perlin_derivative([0.3, 0.7, 1.9], 2, 0, 0)",
+         .derivative =
+             "[perlin_derivative(p, max(i, 0) + 1, j, k), perlin_derivative(p, i, max(j, 0) + 1, "
+             "k), perlin_derivative(p, i, j, max(k, 0) + 1)]; 0; 0; 0",
+         .cost = 200}),
+    vm::builtin<PerlinDerivative4>(
+        {.signature = "real perlin_derivative(real[4] p, integer i, j, k, l)",
+         .module = "noise",
+         .doc = "Mixed derivative of `perlin`: i, j, k and l times along the axes in "
+                "turn; a negative order counts as 0.",
+         .example = "perlin_derivative([0.3, 0.7, 1.9, 2.2], 2, 0, 0, 0)",
+         .derivative =
+             "[perlin_derivative(p, max(i, 0) + 1, j, k, l), perlin_derivative(p, i, max(j, 0) + "
+             "1, "
+             "k, l), perlin_derivative(p, i, j, max(k, 0) + 1, l), perlin_derivative(p, i, "
+             "j, k, max(l, 0) + 1)]; 0; 0; 0; 0",
+         .cost = 600}),
 };
 
 }  // namespace mms::stdlib::MMS_ISA

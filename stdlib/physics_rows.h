@@ -31,7 +31,7 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .doc = "Relative power of CIE standard illuminant D65, 1 at 560 nm (CIE 15, 5 nm steps "
                 "from 300 to 830 nm, linear between, ends held); wavelength in metres.",
          .example = "illuminant_d65(550nm)",
-         .derivative = "",
+         .derivative = "illuminant_d65_slope(wavelength)",
          .max_ulp = 0.51,
          .cost = 45}),
     vm::builtin<IlluminantA>({.signature = "real illuminant_a(real wavelength)",
@@ -39,7 +39,7 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
                               .doc = "Relative power of CIE standard illuminant A (a tungsten lamp "
                                      "of 2856 K), 1 at 560 nm; tabulated as D65.",
                               .example = "illuminant_a(550nm)",
-                              .derivative = "",
+                              .derivative = "illuminant_a_slope(wavelength)",
                               .max_ulp = 0.51,
                               .cost = 45}),
     vm::builtin<Sellmeier>({.signature = "real sellmeier(real wavelength, b1, c1, b2, c2, b3, c3)",
@@ -49,7 +49,7 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
                                    "wavelength is in metres. 1 where the sum is below -1.",
                             .example = "sellmeier(550nm, 1.03961212, 0.00600069867, 0.231792344, "
                                        "0.0200179144, 1.01046945, 103.560653)",
-                            .derivative = "",
+                            .derivative = "= sellmeier_formula(wavelength, b1, c1, b2, c2, b3, c3)",
                             .max_ulp = 0.51,
                             .cost = 30}),
     vm::builtin<Cauchy>(
@@ -68,7 +68,7 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
              "Reflectance of a dielectric for unpolarised light; `ior` is the far side over the "
              "near side, the cosine of incidence counts without its sign. 1 in total reflection.",
          .example = "fresnel(0.5, 1.5)",
-         .derivative = "",
+         .derivative = "= fresnel_formula(cos_theta, ior)",
          .max_ulp = 0.51,
          .cost = 40}),
     vm::builtin<FresnelConductor>(
@@ -77,7 +77,7 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .doc = "Reflectance of a conductor of complex index n + i k for unpolarised light; the "
                 "cosine of incidence counts without its sign.",
          .example = "fresnel_conductor(0.5, 0.2, 3.4)",
-         .derivative = "",
+         .derivative = "= fresnel_conductor_formula(cos_theta, n, k)",
          .max_ulp = 0.51,
          .cost = 95}),
     vm::builtin<GoldN>(
@@ -86,7 +86,7 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .doc = "Real part of the refractive index of gold at a wavelength in metres (handbook "
                 "data, 299 to 886 nm, linear between rows, ends held).",
          .example = "gold_n(550nm)",
-         .derivative = "",
+         .derivative = "gold_n_slope(wavelength)",
          .max_ulp = 0.51,
          .cost = 70}),
     vm::builtin<GoldK>(
@@ -94,7 +94,7 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .module = "physics",
          .doc = "Imaginary part of the refractive index of gold (extinction); as gold_n.",
          .example = "gold_k(550nm)",
-         .derivative = "",
+         .derivative = "gold_k_slope(wavelength)",
          .max_ulp = 0.51,
          .cost = 70}),
     vm::builtin<SilverN>(
@@ -103,7 +103,7 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .doc = "Real part of the refractive index of silver at a wavelength in metres (handbook "
                 "data, 299 to 886 nm, linear between rows, ends held).",
          .example = "silver_n(550nm)",
-         .derivative = "",
+         .derivative = "silver_n_slope(wavelength)",
          .max_ulp = 0.51,
          .cost = 70}),
     vm::builtin<SilverK>(
@@ -111,7 +111,7 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .module = "physics",
          .doc = "Imaginary part of the refractive index of silver (extinction); as silver_n.",
          .example = "silver_k(550nm)",
-         .derivative = "",
+         .derivative = "silver_k_slope(wavelength)",
          .max_ulp = 0.51,
          .cost = 100}),
     vm::builtin<CopperN>(
@@ -120,7 +120,7 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .doc = "Real part of the refractive index of copper at a wavelength in metres (handbook "
                 "data, 299 to 886 nm, linear between rows, ends held).",
          .example = "copper_n(550nm)",
-         .derivative = "",
+         .derivative = "copper_n_slope(wavelength)",
          .max_ulp = 0.51,
          .cost = 100}),
     vm::builtin<CopperK>(
@@ -128,7 +128,7 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .module = "physics",
          .doc = "Imaginary part of the refractive index of copper (extinction); as copper_n.",
          .example = "copper_k(550nm)",
-         .derivative = "",
+         .derivative = "copper_k_slope(wavelength)",
          .max_ulp = 0.51,
          .cost = 100}),
     vm::builtin<AluminiumN>(
@@ -137,7 +137,7 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .doc = "Real part of the refractive index of aluminium at a wavelength in metres "
                 "(handbook data, 299 to 886 nm, linear between rows, ends held).",
          .example = "aluminium_n(550nm)",
-         .derivative = "",
+         .derivative = "aluminium_n_slope(wavelength)",
          .max_ulp = 0.51,
          .cost = 70}),
     vm::builtin<AluminiumK>(
@@ -145,9 +145,90 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .module = "physics",
          .doc = "Imaginary part of the refractive index of aluminium (extinction); as aluminium_n.",
          .example = "aluminium_k(550nm)",
-         .derivative = "",
+         .derivative = "aluminium_k_slope(wavelength)",
          .max_ulp = 0.51,
          .cost = 70}),
+    vm::builtin<IlluminantD65Slope>(
+        {.signature = "real illuminant_d65_slope(real wavelength)",
+         .module = "spectra",
+         .doc = "Change of `illuminant_d65` for each metre of wavelength: constant between the "
+                "rows of its table, 0 outside.",
+         .example = "illuminant_d65_slope(550nm)",
+         .derivative = "0",
+         .max_ulp = 0.51,
+         .cost = 45}),
+    vm::builtin<IlluminantASlope>({.signature = "real illuminant_a_slope(real wavelength)",
+                                   .module = "spectra",
+                                   .doc = "Change of `illuminant_a` for each metre of wavelength: "
+                                          "constant between the rows of its table, 0 outside.",
+                                   .example = "illuminant_a_slope(550nm)",
+                                   .derivative = "0",
+                                   .max_ulp = 0.51,
+                                   .cost = 45}),
+    vm::builtin<GoldNSlope>({.signature = "real gold_n_slope(real wavelength)",
+                             .module = "physics",
+                             .doc = "Change of `gold_n` for each metre of wavelength: constant "
+                                    "between the rows of its table, 0 outside.",
+                             .example = "gold_n_slope(550nm)",
+                             .derivative = "0",
+                             .max_ulp = 0.51,
+                             .cost = 50}),
+    vm::builtin<GoldKSlope>({.signature = "real gold_k_slope(real wavelength)",
+                             .module = "physics",
+                             .doc = "Change of `gold_k` for each metre of wavelength: constant "
+                                    "between the rows of its table, 0 outside.",
+                             .example = "gold_k_slope(550nm)",
+                             .derivative = "0",
+                             .max_ulp = 0.51,
+                             .cost = 50}),
+    vm::builtin<SilverNSlope>({.signature = "real silver_n_slope(real wavelength)",
+                               .module = "physics",
+                               .doc = "Change of `silver_n` for each metre of wavelength: constant "
+                                      "between the rows of its table, 0 outside.",
+                               .example = "silver_n_slope(550nm)",
+                               .derivative = "0",
+                               .max_ulp = 0.51,
+                               .cost = 50}),
+    vm::builtin<SilverKSlope>({.signature = "real silver_k_slope(real wavelength)",
+                               .module = "physics",
+                               .doc = "Change of `silver_k` for each metre of wavelength: constant "
+                                      "between the rows of its table, 0 outside.",
+                               .example = "silver_k_slope(550nm)",
+                               .derivative = "0",
+                               .max_ulp = 0.51,
+                               .cost = 50}),
+    vm::builtin<CopperNSlope>({.signature = "real copper_n_slope(real wavelength)",
+                               .module = "physics",
+                               .doc = "Change of `copper_n` for each metre of wavelength: constant "
+                                      "between the rows of its table, 0 outside.",
+                               .example = "copper_n_slope(550nm)",
+                               .derivative = "0",
+                               .max_ulp = 0.51,
+                               .cost = 50}),
+    vm::builtin<CopperKSlope>({.signature = "real copper_k_slope(real wavelength)",
+                               .module = "physics",
+                               .doc = "Change of `copper_k` for each metre of wavelength: constant "
+                                      "between the rows of its table, 0 outside.",
+                               .example = "copper_k_slope(550nm)",
+                               .derivative = "0",
+                               .max_ulp = 0.51,
+                               .cost = 50}),
+    vm::builtin<AluminiumNSlope>({.signature = "real aluminium_n_slope(real wavelength)",
+                                  .module = "physics",
+                                  .doc = "Change of `aluminium_n` for each metre of wavelength: "
+                                         "constant between the rows of its table, 0 outside.",
+                                  .example = "aluminium_n_slope(550nm)",
+                                  .derivative = "0",
+                                  .max_ulp = 0.51,
+                                  .cost = 50}),
+    vm::builtin<AluminiumKSlope>({.signature = "real aluminium_k_slope(real wavelength)",
+                                  .module = "physics",
+                                  .doc = "Change of `aluminium_k` for each metre of wavelength: "
+                                         "constant between the rows of its table, 0 outside.",
+                                  .example = "aluminium_k_slope(550nm)",
+                                  .derivative = "0",
+                                  .max_ulp = 0.51,
+                                  .cost = 50}),
 };
 
 }  // namespace mms::stdlib::MMS_ISA

@@ -105,8 +105,3 @@ end;
 /// >>> mod(-1.0, 3.0)
 /// 2
 real mod(real a, b) = a % b;
-
-/// a - b trunc(a / b): has the sign of a.
-/// >>> fmod(-1.0, 3.0)
-/// -1
-real fmod(real a, b) = a - b * trunc(a / b);

@@ -35,15 +35,6 @@ constexpr std::pair<materials::Trait, const char*> kTraitNames[] = {
     {materials::Dispersive, "dispersive"}, {materials::Combiner, "combiner"},
     {materials::PhaseFunction, "phase"}};
 
-struct NamedEntry {
-  const char* name;
-  const vm::Entry vm::Descriptor::*entry;
-};
-constexpr NamedEntry kEntries[] = {{"shade", &vm::Descriptor::shade},
-                                   {"pass", &vm::Descriptor::pass},
-                                   {"emit", &vm::Descriptor::emit},
-                                   {"displace", &vm::Descriptor::displace}};
-
 constexpr const char* kRates[] = {"constant", "uniform", "varying"};
 
 /// A variable as scripts name it: a hidden one stands for what it is the change of, or for the
@@ -135,7 +126,7 @@ Json to_json(const vm::Program& program, const vm::Descriptor& d,
     const std::string name(api::output_name(d.form, output));
     if (!name.empty()) json["outputs"][name] = output_json(d, output);
   }
-  for (const NamedEntry& e : kEntries) json["entries"][e.name] = entry_json(d.*e.entry, facts);
+  for (const api::NamedEntry& e : api::kEntries) json["entries"][e.name] = entry_json(d.*e.entry, facts);
   return json;
 }
 

@@ -44,11 +44,12 @@ TEST_CASE("help and version") {
   CHECK(version.out.starts_with("mms "));
   const Outcome help = folder.mms("--help");
   CHECK(help.exit == 0);
-  for (const char* part : {"check", "render", "info", "eval", "disasm", "fmt", "test", "explain",
-                           "doc", "completion", "Exit codes", "Examples", "70", "130"})
+  for (const char* part :
+       {"check", "render", "info", "eval", "disasm", "accuracy", "profile", "fmt", "test",
+        "explain", "doc", "completion", "Exit codes", "Examples", "70", "130"})
     CHECK(contains(help.out, part));
-  for (const char* verb :
-       {"check", "render", "info", "eval", "disasm", "fmt", "test", "explain", "doc"}) {
+  for (const char* verb : {"check", "render", "info", "eval", "disasm", "accuracy", "profile",
+                           "fmt", "test", "explain", "doc"}) {
     const Outcome run = folder.mms(std::string(verb) + " --help");
     INFO(verb);
     CHECK(run.exit == 0);

@@ -19,7 +19,11 @@
 
 namespace mms::vm::test {
 
+#if __LDBL_MANT_DIG__ >= 106
+using Quad = long double;
+#else
 __extension__ using Quad = __float128;
+#endif
 
 /// A type wide enough that rounding an exact sum, product or quotient through it to T is the same
 /// as rounding once: at least 2 p + 2 bits (Figueroa 1995).
