@@ -41,6 +41,19 @@ inline constexpr int kIfDepth = 4096;
 /// Blocks of the frames of all open calls of one run, masks counted.
 inline constexpr int kStackBlocks = 1 << 18;
 
+/// Steps of one loop that an enclosure (vm/bounds.h) follows one by one before it is widened.
+inline constexpr int kBoundsSteps = 1024;
+
+/// Recursive calls that are open at a time in an enclosure before one returns anything.
+inline constexpr int kBoundsDepth = 48;
+
+/// Cost of an enclosure, in instructions, from which on every loop is widened at once; at ten times
+/// as much every call returns anything.
+inline constexpr int kBoundsInstructions = 1 << 20;
+
+/// Rounds of widening before what still grows in a loop is taken for anything.
+inline constexpr int kBoundsRounds = 24;
+
 /// Bytes of one source file.
 inline constexpr int kSourceBytes = 1 << 26;
 
