@@ -270,7 +270,7 @@ void Flights::collide(Flight& f, const PathView& path) {
   for (int k = 0; k < kWavelengths; ++k) {
     const float extinction = f.scattering[k] + f.absorption[k];
     // Beyond the bound that the author stated, the medium is as dense as the bound.
-    denser |= extinction > majorant;
+    denser |= extinction > majorant * 1.00001f;  // rounding is no news
     const float held = extinction > majorant ? majorant / extinction : 1;
     scattered[k] = f.scattering[k] * held / majorant;
     nothing[k] = std::max(0.0f, 1 - extinction * held / majorant);

@@ -43,11 +43,15 @@ Interval hyperbolic_cosine(const Interval& x) {
   return {std::cosh(a.lo), std::cosh(a.hi), false};
 }
 
-/// Marks NaN where an infinite part can meet a zero in one of the machines' own ways.
+/// Infinite parts may become NaN in one of the machines; together with NaN, libm makes numbers of
+/// them as C99 Annex G says, of either sign.
 void with_infinities(const Interval* in, Interval* out) {
-  const bool nan = in[0].contains_infinity() || in[1].contains_infinity();
-  out[0].nan |= nan;
-  out[1].nan |= nan;
+  const bool infinite = in[0].contains_infinity() || in[1].contains_infinity();
+  const bool nan = in[0].nan || in[1].nan;
+  for (int k = 0; k < 2 && infinite; ++k) {
+    out[k].nan = true;
+    if (nan) out[k] = Interval::whole();
+  }
 }
 
 /// sinh(x + iy).
@@ -112,7 +116,11 @@ void complex_sqrt(const Interval* in, Interval* out) {
   else  // either sign of zero
     out[1] = {-part(-x.lo, down), part(-x.lo, up), false};
   with_infinities(in, out);
+  // What the float kernel makes of NaN: infinite parts win, else the part that is divided is 0.
+  if (x.nan || y.nan)
+    for (int k = 0; k < 2; ++k) out[k] = join(out[k], Interval::point(0));
   if (x.nan && y.contains_infinity()) out[0].hi = Interval::kInf;
+  if (y.nan && x.lo == -Interval::kInf) out[1] = Interval::whole();
 }
 
 void complex_sinh(const Interval* in, Interval* out) {

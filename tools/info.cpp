@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // mms info: what a linked program knows about itself.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "api/bounds.h"
 #include "api/outputs.h"
 #include "tools/commands.h"
 #include "tools/script.h"
@@ -79,7 +81,12 @@ Json to_json(const vm::Program& program, const vm::Descriptor& d) {
     o["constant"] = info.constant;
     o["spectral"] = info.spectral;
     o["reads"] = variables(info.variables);
-    if (const std::string text = material(d, output); !text.empty()) o["material"] = text;
+    if (const std::string text = material(d, output); !text.empty()) {
+      o["material"] = text;
+      if (output == vm::Output::Material)
+        if (const double most = api::largest_weight(program, d); std::isfinite(most))
+          o["largest_weight"] = most;
+    }
   }
   return json;
 }
@@ -92,6 +99,16 @@ Json to_json(const lang::ParamInfo& p) {
   json["page"] = p.page;
   json["doc"] = p.doc;
   return json;
+}
+
+/// What is proven of a material's weights (api/bounds.h); rounding may pass 1 by a little.
+void print_weight(const Json& o) {
+  if (!o.contains("largest_weight")) return;
+  const double most = o["largest_weight"].get<double>();
+  if (most <= 1 + 1e-5)
+    fmt::print("  {:<18}proven: weights never exceed one (at most {:.4g})\n", "", most);
+  else
+    fmt::print("  {:<18}not proven that weights never exceed one (at most {:.4g})\n", "", most);
 }
 
 void print_text(const lang::Linked& linked) {
@@ -113,6 +130,7 @@ void print_text(const lang::Linked& linked) {
         line +=
             fmt::format(" reads {}", fmt::join(o["reads"].get<std::vector<std::string>>(), " "));
       fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+      if (o.contains("material")) print_weight(o);
     }
     fmt::print("  instructions     ");
     for (const auto& [name, count] : json["instructions"].items())

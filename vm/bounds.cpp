@@ -2,10 +2,14 @@
 #include "vm/bounds.h"
 
 #include <algorithm>
+#include <cmath>
+#include <initializer_list>
 #include <memory>
+#include <utility>
 
 #include "vm/call_graph.h"
 #include "vm/limits.h"
+#include "vm/polynomial.h"
 
 namespace mms::vm {
 namespace {
@@ -20,6 +24,13 @@ struct Node {
   Interval value;
   Op op = Op::PushConst;  ///< what made it: an input, constant, parameter or join says PushConst
   Index a = kNone, b = kNone;
+  Index cubic = kNone;  ///< where it is a polynomial of an earlier value
+};
+
+/// A value as a polynomial of one earlier value.
+struct Cubic {
+  Index of;
+  Polynomial polynomial;
 };
 
 using Values = std::vector<Interval>;
@@ -135,6 +146,7 @@ struct BoundsMachine::State {
   std::vector<std::vector<Jump>> jumps;
   std::vector<std::size_t> blocks;
   std::vector<Node> nodes;
+  std::vector<Cubic> cubics;
   std::vector<std::pair<Index, Interval>> undo;
   std::vector<int> open_calls;
   std::vector<Interval> in, out;  // of a builtin
@@ -146,8 +158,14 @@ struct BoundsMachine::State {
 
   const Interval& value(Index n) const { return nodes[n].value; }
   Index make(const Interval& v, Op op = Op::PushConst, Index a = kNone, Index b = kNone) {
-    nodes.push_back({v, op, a, b});
+    nodes.push_back({v, op, a, b, kNone});
     return static_cast<Index>(nodes.size() - 1);
+  }
+  void forget(std::size_t mark) {
+    while (nodes.size() > mark) {
+      if (nodes.back().cubic != kNone) cubics.pop_back();
+      nodes.pop_back();
+    }
   }
   void narrow_to(Index n, const Interval& v) {
     if (nodes[n].value == v) return;
@@ -209,8 +227,11 @@ struct BoundsMachine::State {
         return integer_of_real(a);
       case Op::Not:
         return {1 - a.hi, 1 - a.lo, false};
-      default:
+      case Op::NegR:
+      case Op::NegS:
         return neg(a);
+      default:
+        return Interval::whole();
     }
   }
 
@@ -282,6 +303,76 @@ struct BoundsMachine::State {
     return a ? yes : no;
   }
 
+  // Polynomials
+
+  bool is_constant(Index n) const { return n >= first_constant() && n < first_value(); }
+  static Index first_constant() { return static_cast<Index>(input_count()); }
+  Index first_value() const {
+    return first_constant() + static_cast<Index>(program.constants.size());
+  }
+  /// The value that `n` is a polynomial of; itself if of no other.
+  Index root(Index n) const { return nodes[n].cubic == kNone ? n : cubics[nodes[n].cubic].of; }
+
+  /// `n` as a polynomial of `of`, if it is one.
+  std::optional<Polynomial> polynomial(Index n, Index of) const {
+    if (is_constant(n) && !value(n).contains_infinity() && !value(n).nan)
+      return Polynomial::constant(value(n));
+    if (n == of) return Polynomial::identity();
+    if (nodes[n].cubic == kNone || cubics[nodes[n].cubic].of != of) return std::nullopt;
+    return cubics[nodes[n].cubic].polynomial;
+  }
+
+  std::optional<Polynomial> polynomial(Op op, std::span<const Index> operands, Index of) const {
+    const double size = value(of).magnitude();
+    std::optional<Polynomial> p[3];
+    for (std::size_t k = 0; k < operands.size(); ++k)
+      if (!(p[k] = polynomial(operands[k], of))) return std::nullopt;
+    const auto fits = [&] { return p[0]->degree() + p[1]->degree() < Polynomial::kTerms; };
+    switch (op) {
+      case Op::NegR:
+      case Op::NegS:
+        return negative(*p[0]);
+      case Op::AddR:
+      case Op::AddS:
+        return vm::sum(*p[0], *p[1], size);
+      case Op::SubR:
+      case Op::SubS:
+        return vm::sum(*p[0], negative(*p[1]), size);
+      case Op::MulR:
+      case Op::MulS:
+        return fits() ? std::optional(vm::product(*p[0], *p[1], size)) : std::nullopt;
+      case Op::FmaR:
+      case Op::FmaS:
+        return fits() ? std::optional(vm::sum(vm::product(*p[0], *p[1], size), *p[2], size))
+                      : std::nullopt;
+      default:
+        return std::nullopt;
+    }
+  }
+
+  /// Where result `n` is a polynomial of a value that occurs in it more than once, what that says.
+  Index tightened(Index n, std::initializer_list<Index> operands) {
+    const std::span<const Index> all(operands.begin(), operands.size());
+    for (const Index operand : all) {
+      if (is_constant(operand)) continue;
+      for (const Index of : {root(operand), operand}) {
+        const Interval& x = value(of);
+        if (!x.has_number() || !(x.magnitude() < 1e9)) continue;
+        const std::optional<Polynomial> p = polynomial(nodes[n].op, all, of);
+        if (!p) continue;
+        nodes[n].cubic = static_cast<Index>(cubics.size());
+        cubics.push_back({of, *p});
+        if (p->degree() > 1) {
+          const bool nan = nodes[n].value.nan;
+          nodes[n].value = meet(nodes[n].value, p->range(x));
+          nodes[n].value.nan = nan;
+        }
+        return n;
+      }
+    }
+    return n;
+  }
+
   static Index pop(Pass& p) {
     const Index n = p.stack.back();
     p.stack.pop_back();
@@ -297,14 +388,16 @@ struct BoundsMachine::State {
     const std::size_t operands = info(i.op).pops.size();
     if (operands == 3) {
       const Index c = pop(p), b = pop(p), a = pop(p);
-      p.stack.push_back(i.op == Op::FmaR || i.op == Op::FmaS ? make(fused(a, b, c), i.op, a, b)
-                                                             : select(a, b, c));
+      if (i.op == Op::FmaR || i.op == Op::FmaS)
+        p.stack.push_back(tightened(make(fused(a, b, c), i.op, a, b), {a, b, c}));
+      else
+        p.stack.push_back(select(a, b, c));
     } else if (operands == 2) {
       const Index b = pop(p), a = pop(p);
-      p.stack.push_back(make(binary(i.op, a, b), i.op, a, b));
+      p.stack.push_back(tightened(make(binary(i.op, a, b), i.op, a, b), {a, b}));
     } else {
       const Index a = pop(p);
-      p.stack.push_back(make(unary(i.op, value(a)), i.op, a));
+      p.stack.push_back(tightened(make(unary(i.op, value(a)), i.op, a), {a}));
     }
   }
 
@@ -368,7 +461,7 @@ struct BoundsMachine::State {
       if (p.tail) {
         ++back_edges;
         if (step < limits::kBoundsSteps && instructions < limits::kBoundsInstructions) {
-          nodes.resize(mark);
+          forget(mark);
           for (std::size_t k = 0; k < args.size(); ++k)
             args[k] = p.tail_nodes[k] < mark ? p.tail_nodes[k] : make((*p.tail)[k]);
           continue;
@@ -377,7 +470,7 @@ struct BoundsMachine::State {
       }
       break;
     }
-    nodes.resize(mark);
+    forget(mark);
     return returned;
   }
 
@@ -389,7 +482,7 @@ struct BoundsMachine::State {
     if (instructions > kMost)
       for (std::size_t k = 0; k < covered.size(); ++k) covered[k] = Interval::all(types[k]);
     for (int round = 0;; ++round) {
-      nodes.resize(mark);
+      forget(mark);
       for (std::size_t k = 0; k < args.size(); ++k) args[k] = make(covered[k]);
       const Pass p = pass();
       if (!p.tail) return;
@@ -541,7 +634,7 @@ struct BoundsMachine::State {
       ++instructions;
       switch (i.op) {
         case Op::PushConst:
-          p.stack.push_back(static_cast<Index>(input_count()) + i.a);
+          p.stack.push_back(first_constant() + i.a);
           break;
         case Op::PushInput:
           p.stack.push_back(i.a);
@@ -554,6 +647,15 @@ struct BoundsMachine::State {
           break;
         case Op::Splat:  // a number is its own spectrum
           break;
+        case Op::Component:  // not the same value as another component
+          p.stack.push_back(make(value(pop(p))));
+          break;
+        case Op::Pack: {
+          Interval all = Interval::empty();
+          for (const Interval& v : values_of(pop(p, kWavelengths))) all = join(all, v);
+          p.stack.push_back(make(all));
+          break;
+        }
         case Op::If:
           begin_if(p, i);
           continue;
@@ -607,6 +709,9 @@ void enclose_row(const Builtin& row, std::span<const SlotType> results,
   if (enclosed) row.bounds.run(in.data(), out.data());
   for (std::size_t k = 0; k < out.size(); ++k) {
     if (!real(k)) continue;
+    // Ends that are one number but for rounding may come in the wrong order.
+    if (out[k].lo > out[k].hi && std::isfinite(out[k].lo) && std::isfinite(out[k].hi))
+      std::swap(out[k].lo, out[k].hi);
     if (enclosed) out[k] = reals_within(out[k].lo, out[k].hi, row.max_ulp, out[k].nan);
     out[k] = meet(out[k], range);
     out[k].nan |= nan;
@@ -620,6 +725,7 @@ BoundsMachine::BoundsMachine(BoundsMachine&&) noexcept = default;
 Enclosure BoundsMachine::run(std::uint32_t function, const Box& box) {
   State& s = *state_;
   s.nodes.clear();
+  s.cubics.clear();
   for (const Interval& i : box.inputs) s.make(i);
   for (const Constant& c : s.program.constants) s.make(interval_of(c));
   s.undo.clear();

@@ -59,9 +59,11 @@ class Boxes {
     i.nan = below(20) == 0;
     return i;
   }
+  /// An interval of integers whose ends are floats.
   Interval integers() {
     const auto one = [&] {
-      return below(4) ? double(below(21) - 10) : double(static_cast<std::int32_t>(random_()));
+      return below(4) ? double(below(21) - 10)
+                      : double(int(static_cast<std::int32_t>(random_()) & ~0xff));
     };
     const double a = one(), b = below(2) ? a : one();
     return {std::min(a, b), std::max(a, b), false};
@@ -108,7 +110,7 @@ std::string outside(const vm::Builtin& row, const std::vector<Interval>& box,
   for (std::size_t k = 0; k < box.size(); ++k)
     for (int lane = 0; lane < kLanes; ++lane) {
       R x = random.inside<R>(box[k], lane < 4 ? (lane >> (k % 2)) & 1 : lane);
-      if (shape.params[k] == 'i') x = R(std::floor(double(x)));
+      if (shape.params[k] == 'i') x = R(std::clamp(std::floor(double(x)), box[k].lo, box[k].hi));
       columns[k][static_cast<std::size_t>(lane)] = x;
     }
   const auto out = stdlib::testing::run<R>(row, columns);

@@ -7,6 +7,7 @@
 #include "hand_program.h"
 #include "lang/link.h"
 #include "lang/parser.h"
+#include "renderer/enclosure.h"
 #include "renderer/scene.h"
 #include "stdlib/stdlib.h"
 
@@ -112,13 +113,14 @@ TEST_CASE("a volume that varies is tracked: optical depth along the diameter of 
   CHECK(r->report.medium_runs > 0);
 }
 
-TEST_CASE("a volume that states no bound takes it from its enclosure; one that is too small is told") {
+TEST_CASE(
+    "a volume that states no bound takes it from its enclosure; one that is too small is told") {
   const std::string narrow =
       R"({"camera": {"position": [0, 0, 5], "target": [0, 0, 0], "fov": 0.01},
     "environment": {"constant": 1}, "objects": [{"sphere": {}, "test": true}]})";
   const auto rendered = [&](const char* absorption, const char* bound) {
-    const vm::Program p = compile(std::string("volume a\n absorption = ") + absorption + ";" + bound +
-                                  "\nend\n");
+    const vm::Program p =
+        compile(std::string("volume a\n absorption = ") + absorption + ";" + bound + "\nend\n");
     return render(p, scene_of(p, narrow), options(16, 64));
   };
   Result<Rendered> r = rendered("0.4 * (1 + $object_position.z)", "");
