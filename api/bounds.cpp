@@ -177,12 +177,12 @@ int bound(MMsContext* context, const vm::Descriptor& d, const char* output, cons
       if (const auto set = api::set_box(domain, box[k].name, low, high); !set)
         return complain(set.error());
     }
-    const auto found = api::find_output(d.form, output ? output : "");
+    const auto found = api::find_output(d.form, output);
     const api::OutputBounds r = found ? api::output_bounds(context->program->linked->program, d,
                                                            *found, domain, std::max(grid, 1))
                                       : api::OutputBounds{};
     if (r.values.empty())
-      return complain({output ? output : "", "no output that is made of numbers",
+      return complain({output, "no output that is made of numbers",
                        "try height, gradient, bound, scattering, absorption or emission"});
     for (size_t k = 0; k < r.values.size(); ++k) {
       const bool any = r.values[k].nan;
@@ -197,10 +197,12 @@ int bound(MMsContext* context, const vm::Descriptor& d, const char* output, cons
 
 int mmsBoundSurface(MMsContext* context, const MMsSurface* surface, const char* output,
                     const MMsInterval* box, size_t box_count, int grid, float* lo, float* hi) {
+  if (!context || !surface || !output || (!box && box_count) || !lo || !hi) return 0;
   return bound(context, *surface->descriptor, output, box, box_count, grid, lo, hi);
 }
 
 int mmsBoundVolume(MMsContext* context, const MMsVolume* volume, const char* output,
                    const MMsInterval* box, size_t box_count, int grid, float* lo, float* hi) {
+  if (!context || !volume || !output || (!box && box_count) || !lo || !hi) return 0;
   return bound(context, *volume->descriptor, output, box, box_count, grid, lo, hi);
 }

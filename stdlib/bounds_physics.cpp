@@ -181,7 +181,8 @@ void fresnel(const Interval* in, Interval* out) {
   }
   const auto rp = [](double q) { return (q - 1) / (q + 1); };
   const Interval p = magnitude({rp(q_lo), rp(q_hi), false});
-  constexpr double slack = 1e-9;
+  // For a small index (ior^2 + 1) c^2 - 1 cancels, and is divided by about g^2.
+  const double slack = 1e-12 + 1e-15 / g2_lo;
   out[0] = {std::max(0.0, 0.5 * (s_lo + p.lo * p.lo) - slack),
             std::min(1.0, 0.5 * (s_hi + p.hi * p.hi) + slack), false};
 }

@@ -295,5 +295,76 @@ TEST_CASE("bounds: random programs stay in their enclosures") {
   MESSAGE(bounded, " of ", sources, " enclosures are finite");
 }
 
+/// The enclosure of `real out() = ...;` after `definitions`, over the unit sphere's box.
+vm::Enclosure enclosure_of(const std::string& definitions, const std::string& expression,
+                           const vm::Box& box = vm::Box::unit_sphere()) {
+  const Compiled c = compile(definitions + "real out() = " + expression + ";\n");
+  INFO(c.text_of_errors());
+  REQUIRE(c.linked);
+  vm::BoundsMachine machine(c.linked->program);
+  return machine.run(c.linked->program.exports.at(0).function, box);
+}
+
+TEST_CASE("bounds: what occurs twice is seen to be one value") {
+  const auto bounds = [](const std::string& e) { return enclosure_of("", e).results.at(0); };
+  const std::string x = "$position.x", t = "(0.5 + 0.5 * $position.x)";
+  CHECK(bounds(x + " - " + x) == Interval::point(0));
+  CHECK(bounds(x + " * " + x) == Interval{0, 1, false});
+  // The smooth step of [0, 1], and a cubic whose turns lie inside: x^3 - x/2 at sqrt(1/6).
+  const Interval smooth = bounds("smoothstep(0.0, 1.0, " + t + ")");
+  CHECK(smooth.lo > -2e-6);
+  CHECK(smooth.hi < 1 + 2e-6);
+  const Interval cubic = bounds(x + " * " + x + " * " + x + " - 0.5 * " + x);
+  CHECK(cubic.hi < 0.5 + 1e-5);
+  // A blend stays between what it blends.
+  const Interval blend = bounds("mix(2.0, sin(9 * $position.y), " + t + ")");
+  CHECK(blend.lo > -1 - 1e-5);
+  CHECK(blend.hi < 2 + 1e-5);
+}
+
+TEST_CASE("bounds: arms know what their condition says") {
+  const auto bounds = [](const std::string& e) { return enclosure_of("", e).results.at(0); };
+  // Neither division meets the zero that the condition keeps away.
+  const Interval inverse =
+      bounds("select 1 / $position.x, if $position.x > 0.5; 0.0 otherwise; end");
+  CHECK(inverse == Interval{0, 2, false});
+  CHECK(bounds("select $position.x, if $position.x >= 0; -$position.x otherwise; end") ==
+        Interval{0, 1, false});
+  // A condition that is always so has one arm.
+  CHECK(bounds("select 3.0, if $position.x < 2; $position.x / 0 otherwise; end") ==
+        Interval::point(3));
+}
+
+TEST_CASE("bounds: loops that end are followed, others are widened, and every run ends") {
+  const std::string halves =
+      "real halves(real x, integer n) = select x, if n <= 0; halves(0.5 * x + 1, n - 1) otherwise "
+      "end;\n";
+  const vm::Enclosure followed = enclosure_of(halves, "halves($position.x, 200)");
+  CHECK(!followed.widened);
+  CHECK(followed.results[0].lo >= 1.99);
+  CHECK(followed.results[0].hi <= 2.01);
+
+  // As many steps as a point asks for: the parameter grows without end, the counter does not.
+  const std::string grow =
+      "real grow(real x, integer n) = select x, if n <= 0; grow(x + 1, n - 1) otherwise end;\n";
+  const vm::Enclosure widened = enclosure_of(grow, "grow(0.0, integer(1e5 * $position.x))");
+  CHECK(widened.widened);
+  CHECK(widened.results[0].contains(0));
+  CHECK(widened.results[0].contains(100000));
+
+  // Not in tail position, and twice: 2^n calls, each deeper than the cap.
+  const std::string tree =
+      "real tree(integer n) = select 0.0, if n <= 0; tree(n - 1) + tree(n - 2) otherwise end;\n";
+  const vm::Enclosure deep = enclosure_of(tree, "tree(integer(200 + $position.x))");
+  CHECK(deep.widened);
+  CHECK(deep.results[0].contains(0));
+
+  // A lane that the machine gives up holds zero.
+  const std::string endless =
+      "real endless(real x) = select 7.0, if x == 2; endless(x) otherwise end;\n";
+  const vm::Enclosure never = enclosure_of(endless, "endless($position.x)");
+  CHECK(never.results[0].contains(0));
+}
+
 }  // namespace
 }  // namespace mms::property
