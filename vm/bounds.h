@@ -25,7 +25,8 @@
 namespace mms::vm {
 
 /// What is known of the point that is shaded: an interval for each machine input (vm/variables.h).
-/// That of a spectrum holds for all its wavelengths.
+/// That of a spectrum holds for all its wavelengths. The two curves of `rgb` come from one
+/// wavelength: neither is negative, and together they are at most 1.
 struct Box {
   std::array<Interval, input_count()> inputs;
 

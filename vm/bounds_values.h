@@ -187,7 +187,35 @@ struct ValueTable {
     };
     if (is_difference(a)) return blend(value(c), value(nodes[a].a), value(a), value(b));
     if (is_difference(b)) return blend(value(c), value(nodes[b].a), value(b), value(a));
-    return fma(value(a), value(b), value(c));
+    const Interval plain = fma(value(a), value(b), value(c));
+    const std::optional<Interval> colour = reflectance(a, b, c);
+    return colour ? meet(plain, *colour) : plain;
+  }
+
+  /// The other factor where one is the input `v`.
+  static Index factor_of(Variable v, Index a, Index b) {
+    const auto input = static_cast<Index>(input_index(v));
+    return a == input ? b : b == input ? a : kNone;
+  }
+  /// `base + k`, which is what `k` was made from where it is a difference from `base`.
+  Interval corner(Index base, Index k) const {
+    const bool difference = nodes[k].op == Op::SubR || nodes[k].op == Op::SubS;
+    return difference && nodes[k].b == base ? value(nodes[k].a) : add(value(base), value(k));
+  }
+  /// base + p $rgb_red + q $rgb_green (`rgb`, thesis Table 6.1): at every wavelength the two curves
+  /// are not negative and at most 1 together, so it stays in the hull of base, base + p, base + q.
+  std::optional<Interval> reflectance(Index a, Index b, Index c) const {
+    const Index q = factor_of(Variable::RgbGreen, a, b);
+    const ValueNode& inner = nodes[c];
+    if (q == kNone || (inner.op != Op::FmaS && inner.op != Op::FmaR)) return std::nullopt;
+    const Index p = factor_of(Variable::RgbRed, inner.a, inner.b), base = inner.c;
+    if (p == kNone) return std::nullopt;
+    Interval hull = join(value(base), join(corner(base, p), corner(base, q)));
+    if (hull.contains_infinity() || !hull.has_number()) return std::nullopt;
+    // Differences, curves and sums are each rounded once.
+    const double slack =
+        0x1p-21 * (hull.magnitude() + value(p).magnitude() + value(q).magnitude()) + 0x1p-149;
+    return reals(hull.lo - slack, hull.hi + slack, true);
   }
 
   /// Operations before a choice that are looked at again under its condition.

@@ -10,6 +10,7 @@
 #include <cstdlib>
 
 #include "generator.h"
+#include "materials/spectra.h"
 #include "tests/golden/evaluate.h"
 #include "tests/sanitized.h"
 #include "tests/unit/stdlib/rows.h"
@@ -320,6 +321,28 @@ TEST_CASE("bounds: what occurs twice is seen to be one value") {
   const Interval blend = bounds("mix(2.0, sin(9 * $position.y), " + t + ")");
   CHECK(blend.lo > -1 - 1e-5);
   CHECK(blend.hi < 2 + 1e-5);
+}
+
+TEST_CASE("bounds: a colour stays between its parts at every wavelength") {
+  for (double nm = kLambdaMin - 1; nm <= kLambdaMax + 1; nm += 0.01) {
+    const double red = materials::rgb_red(nm), green = materials::rgb_green(nm);
+    if (!(red >= 0 && green >= 0 && red + green <= 1)) FAIL(nm);
+  }
+  const auto bounds = [](const std::string& c) {
+    const Compiled script = compile("surface s emission = " + c + "; end");
+    REQUIRE(script.linked);
+    const vm::Program& p = script.linked->program;
+    vm::BoundsMachine machine(p);
+    const vm::Descriptor& d = p.descriptors.at(0);
+    return vm::enclose(machine, p, d.emit, d.emit.emission, vm::Box::unit_sphere());
+  };
+  for (const char* c : {"rgb(0.75, 0.5, 0.25)", "rgb($uv.x, 0.25 + 0.5 * $uv.y, 0.25)",
+                        "rgb(0.3, 0.5 * $uv.x, 0.5 * $uv.y)"}) {
+    CAPTURE(c);
+    const Interval i = bounds(c);
+    CHECK(i.lo > -1e-5);
+    CHECK(i.hi < (std::string(c)[4] == '0' ? 0.75 : 1) + 1e-5);
+  }
 }
 
 TEST_CASE("bounds: arms know what their condition says") {
