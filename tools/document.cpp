@@ -146,8 +146,8 @@ std::string bytecode_document() {
       "operands. Cost is in units of one real addition.\n\n"
       "| Instruction | Operand | Pops | Pushes | Cost | Meaning |\n|---|---|---|---|---|---|\n",
       kMade);
-  constexpr std::string_view kOperands[] = {"-",          "constant", "input",  "local",
-                                            "block type", "function", "builtin"};
+  constexpr std::string_view kOperands[] = {"-",          "constant", "input",   "local",
+                                            "block type", "function", "builtin", "wavelength"};
   for (const vm::OpInfo& row : vm::kOps)
     text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.name,
                         kOperands[static_cast<std::size_t>(row.operand)], or_dash(row.pops),
