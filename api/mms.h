@@ -237,6 +237,26 @@ int mmsEvalSurfaceEmission(MMsContext* context, const MMsSurface* surface, const
 int mmsEvalVolumeEmission(MMsContext* context, const MMsVolume* volume, const MMsPoints* points,
                           const float* w, float* shape);
 
+/* ---- Guaranteed bounds ---- */
+
+/** All points at which a `$variable` lies between `lo` and `hi`: 3 numbers each for a real[3], one
+ *  for `wavelength` (metres). */
+typedef struct MMsInterval {
+  const char* name; /* without the `$` */
+  const float *lo, *hi;
+} MMsInterval;
+
+/** Encloses an output that is made of numbers over a box: no point in it has a value outside
+ *  [lo, hi], in float or in double. Variables that are not given have the values of the unit sphere
+ *  and the box around it; wavelengths are 360 to 830 nm. One pair for `height`, `bound` and spectra
+ *  (all wavelengths), two for `gradient`; infinite ends, or all of it where a value may be NaN,
+ *  say that nothing is known. `grid`: parts that positions are cut into along each axis, for
+ *  tighter bounds; 1 is the box itself. */
+int mmsBoundSurface(MMsContext* context, const MMsSurface* surface, const char* output,
+                    const MMsInterval* box, size_t box_count, int grid, float* lo, float* hi);
+int mmsBoundVolume(MMsContext* context, const MMsVolume* volume, const char* output,
+                   const MMsInterval* box, size_t box_count, int grid, float* lo, float* hi);
+
 #ifdef __cplusplus
 } /* extern "C" */
 

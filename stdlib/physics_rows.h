@@ -5,6 +5,7 @@
 /// \file
 /// The rows of spectra and Fresnel's equations.
 
+#include "stdlib/bounds.h"
 #include "stdlib/physics.h"
 #include "vm/builtin.h"
 
@@ -24,7 +25,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
              "/ "
              "(1 - exp(-0.014387768775039338 / (wavelength * temperature))) / temperature",
          .max_ulp = 0.51,
-         .cost = 40}),
+         .cost = 40,
+         .bounds = {vm::BoundsForm::Exact, bounds::planck, 0, kInf<double>}}),
     vm::builtin<IlluminantD65>(
         {.signature = "real illuminant_d65(real wavelength)",
          .module = "spectra",
@@ -33,7 +35,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .example = "illuminant_d65(550nm)",
          .derivative = "illuminant_d65_slope(wavelength)",
          .max_ulp = 0.51,
-         .cost = 45}),
+         .cost = 45,
+         .bounds = {vm::BoundsForm::Exact, bounds::illuminant_d65}}),
     vm::builtin<IlluminantA>({.signature = "real illuminant_a(real wavelength)",
                               .module = "spectra",
                               .doc = "Relative power of CIE standard illuminant A (a tungsten lamp "
@@ -41,7 +44,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
                               .example = "illuminant_a(550nm)",
                               .derivative = "illuminant_a_slope(wavelength)",
                               .max_ulp = 0.51,
-                              .cost = 45}),
+                              .cost = 45,
+                              .bounds = {vm::BoundsForm::Exact, bounds::illuminant_a}}),
     vm::builtin<Sellmeier>({.signature = "real sellmeier(real wavelength, b1, c1, b2, c2, b3, c3)",
                             .module = "physics",
                             .doc = "Refractive index sqrt(1 + sum of b l^2 / (l^2 - c)) with l in "
@@ -51,7 +55,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
                                        "0.0200179144, 1.01046945, 103.560653)",
                             .derivative = "= sellmeier_formula(wavelength, b1, c1, b2, c2, b3, c3)",
                             .max_ulp = 0.51,
-                            .cost = 30}),
+                            .cost = 30,
+                            .bounds = {vm::BoundsForm::Parts, bounds::sellmeier, 0, kInf<double>}}),
     vm::builtin<Cauchy>(
         {.signature = "real cauchy(real wavelength, a, b)",
          .module = "physics",
@@ -60,7 +65,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .derivative =
              "-2000000.0 * b / (wavelength * 1000000.0) ^ 3; 1; 1 / (wavelength * 1000000.0) ^ 2",
          .max_ulp = 0.51,
-         .cost = 7}),
+         .cost = 7,
+         .bounds = {vm::BoundsForm::Parts, bounds::cauchy}}),
     vm::builtin<Fresnel>(
         {.signature = "real fresnel(real cos_theta, ior)",
          .module = "physics",
@@ -70,7 +76,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .example = "fresnel(0.5, 1.5)",
          .derivative = "= fresnel_formula(cos_theta, ior)",
          .max_ulp = 0.51,
-         .cost = 40}),
+         .cost = 40,
+         .bounds = {vm::BoundsForm::Parts, bounds::fresnel, 0, 1}}),
     vm::builtin<FresnelConductor>(
         {.signature = "real fresnel_conductor(real cos_theta, n, k)",
          .module = "physics",
@@ -79,7 +86,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .example = "fresnel_conductor(0.5, 0.2, 3.4)",
          .derivative = "= fresnel_conductor_formula(cos_theta, n, k)",
          .max_ulp = 0.51,
-         .cost = 95}),
+         .cost = 95,
+         .bounds = {vm::BoundsForm::Range, bounds::fresnel_conductor, 0, kInf<double>}}),
     vm::builtin<GoldN>(
         {.signature = "real gold_n(real wavelength)",
          .module = "physics",
@@ -88,7 +96,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .example = "gold_n(550nm)",
          .derivative = "gold_n_slope(wavelength)",
          .max_ulp = 0.51,
-         .cost = 70}),
+         .cost = 70,
+         .bounds = {vm::BoundsForm::Exact, bounds::gold_n}}),
     vm::builtin<GoldK>(
         {.signature = "real gold_k(real wavelength)",
          .module = "physics",
@@ -96,7 +105,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .example = "gold_k(550nm)",
          .derivative = "gold_k_slope(wavelength)",
          .max_ulp = 0.51,
-         .cost = 70}),
+         .cost = 70,
+         .bounds = {vm::BoundsForm::Exact, bounds::gold_k}}),
     vm::builtin<SilverN>(
         {.signature = "real silver_n(real wavelength)",
          .module = "physics",
@@ -105,7 +115,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .example = "silver_n(550nm)",
          .derivative = "silver_n_slope(wavelength)",
          .max_ulp = 0.51,
-         .cost = 70}),
+         .cost = 70,
+         .bounds = {vm::BoundsForm::Exact, bounds::silver_n}}),
     vm::builtin<SilverK>(
         {.signature = "real silver_k(real wavelength)",
          .module = "physics",
@@ -113,7 +124,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .example = "silver_k(550nm)",
          .derivative = "silver_k_slope(wavelength)",
          .max_ulp = 0.51,
-         .cost = 100}),
+         .cost = 100,
+         .bounds = {vm::BoundsForm::Exact, bounds::silver_k}}),
     vm::builtin<CopperN>(
         {.signature = "real copper_n(real wavelength)",
          .module = "physics",
@@ -122,7 +134,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .example = "copper_n(550nm)",
          .derivative = "copper_n_slope(wavelength)",
          .max_ulp = 0.51,
-         .cost = 100}),
+         .cost = 100,
+         .bounds = {vm::BoundsForm::Exact, bounds::copper_n}}),
     vm::builtin<CopperK>(
         {.signature = "real copper_k(real wavelength)",
          .module = "physics",
@@ -130,7 +143,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .example = "copper_k(550nm)",
          .derivative = "copper_k_slope(wavelength)",
          .max_ulp = 0.51,
-         .cost = 100}),
+         .cost = 100,
+         .bounds = {vm::BoundsForm::Exact, bounds::copper_k}}),
     vm::builtin<AluminiumN>(
         {.signature = "real aluminium_n(real wavelength)",
          .module = "physics",
@@ -139,7 +153,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .example = "aluminium_n(550nm)",
          .derivative = "aluminium_n_slope(wavelength)",
          .max_ulp = 0.51,
-         .cost = 70}),
+         .cost = 70,
+         .bounds = {vm::BoundsForm::Exact, bounds::aluminium_n}}),
     vm::builtin<AluminiumK>(
         {.signature = "real aluminium_k(real wavelength)",
          .module = "physics",
@@ -147,7 +162,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .example = "aluminium_k(550nm)",
          .derivative = "aluminium_k_slope(wavelength)",
          .max_ulp = 0.51,
-         .cost = 70}),
+         .cost = 70,
+         .bounds = {vm::BoundsForm::Exact, bounds::aluminium_k}}),
     vm::builtin<IlluminantD65Slope>(
         {.signature = "real illuminant_d65_slope(real wavelength)",
          .module = "spectra",
@@ -156,7 +172,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
          .example = "illuminant_d65_slope(550nm)",
          .derivative = "0",
          .max_ulp = 0.51,
-         .cost = 45}),
+         .cost = 45,
+         .bounds = {vm::BoundsForm::Range, bounds::illuminant_d65_slope}}),
     vm::builtin<IlluminantASlope>({.signature = "real illuminant_a_slope(real wavelength)",
                                    .module = "spectra",
                                    .doc = "Change of `illuminant_a` for each metre of wavelength: "
@@ -164,7 +181,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
                                    .example = "illuminant_a_slope(550nm)",
                                    .derivative = "0",
                                    .max_ulp = 0.51,
-                                   .cost = 45}),
+                                   .cost = 45,
+                                   .bounds = {vm::BoundsForm::Range, bounds::illuminant_a_slope}}),
     vm::builtin<GoldNSlope>({.signature = "real gold_n_slope(real wavelength)",
                              .module = "physics",
                              .doc = "Change of `gold_n` for each metre of wavelength: constant "
@@ -172,7 +190,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
                              .example = "gold_n_slope(550nm)",
                              .derivative = "0",
                              .max_ulp = 0.51,
-                             .cost = 50}),
+                             .cost = 50,
+                             .bounds = {vm::BoundsForm::Range, bounds::gold_n_slope}}),
     vm::builtin<GoldKSlope>({.signature = "real gold_k_slope(real wavelength)",
                              .module = "physics",
                              .doc = "Change of `gold_k` for each metre of wavelength: constant "
@@ -180,7 +199,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
                              .example = "gold_k_slope(550nm)",
                              .derivative = "0",
                              .max_ulp = 0.51,
-                             .cost = 50}),
+                             .cost = 50,
+                             .bounds = {vm::BoundsForm::Range, bounds::gold_k_slope}}),
     vm::builtin<SilverNSlope>({.signature = "real silver_n_slope(real wavelength)",
                                .module = "physics",
                                .doc = "Change of `silver_n` for each metre of wavelength: constant "
@@ -188,7 +208,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
                                .example = "silver_n_slope(550nm)",
                                .derivative = "0",
                                .max_ulp = 0.51,
-                               .cost = 50}),
+                               .cost = 50,
+                               .bounds = {vm::BoundsForm::Range, bounds::silver_n_slope}}),
     vm::builtin<SilverKSlope>({.signature = "real silver_k_slope(real wavelength)",
                                .module = "physics",
                                .doc = "Change of `silver_k` for each metre of wavelength: constant "
@@ -196,7 +217,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
                                .example = "silver_k_slope(550nm)",
                                .derivative = "0",
                                .max_ulp = 0.51,
-                               .cost = 50}),
+                               .cost = 50,
+                               .bounds = {vm::BoundsForm::Range, bounds::silver_k_slope}}),
     vm::builtin<CopperNSlope>({.signature = "real copper_n_slope(real wavelength)",
                                .module = "physics",
                                .doc = "Change of `copper_n` for each metre of wavelength: constant "
@@ -204,7 +226,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
                                .example = "copper_n_slope(550nm)",
                                .derivative = "0",
                                .max_ulp = 0.51,
-                               .cost = 50}),
+                               .cost = 50,
+                               .bounds = {vm::BoundsForm::Range, bounds::copper_n_slope}}),
     vm::builtin<CopperKSlope>({.signature = "real copper_k_slope(real wavelength)",
                                .module = "physics",
                                .doc = "Change of `copper_k` for each metre of wavelength: constant "
@@ -212,7 +235,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
                                .example = "copper_k_slope(550nm)",
                                .derivative = "0",
                                .max_ulp = 0.51,
-                               .cost = 50}),
+                               .cost = 50,
+                               .bounds = {vm::BoundsForm::Range, bounds::copper_k_slope}}),
     vm::builtin<AluminiumNSlope>({.signature = "real aluminium_n_slope(real wavelength)",
                                   .module = "physics",
                                   .doc = "Change of `aluminium_n` for each metre of wavelength: "
@@ -220,7 +244,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
                                   .example = "aluminium_n_slope(550nm)",
                                   .derivative = "0",
                                   .max_ulp = 0.51,
-                                  .cost = 50}),
+                                  .cost = 50,
+                                  .bounds = {vm::BoundsForm::Range, bounds::aluminium_n_slope}}),
     vm::builtin<AluminiumKSlope>({.signature = "real aluminium_k_slope(real wavelength)",
                                   .module = "physics",
                                   .doc = "Change of `aluminium_k` for each metre of wavelength: "
@@ -228,7 +253,8 @@ inline constexpr vm::Builtin kPhysicsRows[] = {
                                   .example = "aluminium_k_slope(550nm)",
                                   .derivative = "0",
                                   .max_ulp = 0.51,
-                                  .cost = 50}),
+                                  .cost = 50,
+                                  .bounds = {vm::BoundsForm::Range, bounds::aluminium_k_slope}}),
 };
 
 }  // namespace mms::stdlib::MMS_ISA

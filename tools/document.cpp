@@ -49,8 +49,26 @@ std::string accuracy(const vm::Builtin& row) {
                      row.domain);
 }
 
+/// How close its enclosure is; docs/bounds.md says what the words mean.
+std::string_view enclosed(const vm::Builtin& row) {
+  switch (row.bounds.form) {
+    case vm::BoundsForm::None:
+      break;
+    case vm::BoundsForm::Range:
+      return " Bounds: range.";
+    case vm::BoundsForm::Lipschitz:
+      return " Bounds: Lipschitz.";
+    case vm::BoundsForm::Parts:
+      return " Bounds: parts.";
+    case vm::BoundsForm::Exact:
+      return " Bounds: exact.";
+  }
+  return "";
+}
+
 std::string entry(const vm::Builtin& row) {
-  std::string text = fmt::format("`{}`\n\n{}{}\n", row.signature, row.doc, accuracy(row));
+  std::string text =
+      fmt::format("`{}`\n\n{}{}{}\n", row.signature, row.doc, accuracy(row), enclosed(row));
   if (!row.example.empty()) text += fmt::format("\n```\n{}\n```\n", row.example);
   return text + "\n";
 }

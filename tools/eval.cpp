@@ -102,8 +102,9 @@ Exit eval(const EvalOptions& options) {
         lang::make_source("<expression>", fmt::format("const {} = {};\n", kName, expression)));
   const auto compiled = compile(*sources, options, exit);
   if (!compiled) return exit;
-  return options.precision == "double" ? print_values<double>(*compiled, options, expression, *sources)
-                                       : print_values<float>(*compiled, options, expression, *sources);
+  return options.precision == "double"
+             ? print_values<double>(*compiled, options, expression, *sources)
+             : print_values<float>(*compiled, options, expression, *sources);
 }
 
 }  // namespace

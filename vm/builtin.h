@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -25,6 +26,30 @@ using Kernel = void (*)(const void* const* in, void* const* out, int lanes);
 
 /// Batches are padded to this many lanes, so kernels need no remainder loop.
 inline constexpr int kLaneMultiple = 16;
+
+struct Interval;  // vm/interval.h
+
+/// How close a row's enclosure is to the range of its results.
+enum class BoundsForm : std::uint8_t {
+  None,       ///< there is none: results are taken for anything their type can hold
+  Range,      ///< the range of the function, whatever the arguments (or nearly so)
+  Lipschitz,  ///< the value at the centre, and a bound of the gradient
+  Parts,      ///< put together from parts that are each exact: wider where arguments occur twice
+  Exact,      ///< monotone pieces: the range over the box, but for rounding
+};
+
+/// Encloses the results of a row over a box of its arguments.
+struct RowBounds {
+  BoundsForm form = BoundsForm::None;
+  /// One interval for each real, integer or logic scalar of the flattened arguments and results.
+  /// Encloses the exact function, to the last digits of double; what the kernels miss it by is
+  /// `max_ulp`. Arguments are never without a number; NaN among them need be minded only where the
+  /// row makes a number of it. `out` comes as `low` to `high`. Null: that is all that is known.
+  void (*run)(const Interval* in, Interval* out) = nullptr;
+  /// No kernel ever returns a real outside, whatever the arguments.
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+};
 
 struct Builtin {
   /// In the language's own syntax: `real perlin(real[3] p)`. Parsed by the language's own parser.
@@ -49,6 +74,8 @@ struct Builtin {
   std::string_view domain{};
   /// Cost in units of one real addition over a batch.
   int cost = 10;
+  /// What the results can be over a box of arguments.
+  RowBounds bounds = {};
   Kernel f32 = nullptr, f64 = nullptr;
   /// An instruction that does just what the kernels do, without the cost of a call.
   LoweredOp instruction = LoweredOp::CallBuiltin;

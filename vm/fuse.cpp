@@ -43,8 +43,8 @@ struct PairRow {
   Pair pair;
 };
 constexpr PairRow kPairs[] = {
-#define PAIR(first, second, position, constants)                \
-  {LoweredOp::first##_##second##_##position##_##constants,      \
+#define PAIR(first, second, position, constants)           \
+  {LoweredOp::first##_##second##_##position##_##constants, \
    {LoweredOp::first, LoweredOp::second, position, constants}},
 #include "vm/pairs.def"
 #undef PAIR

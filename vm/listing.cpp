@@ -132,7 +132,8 @@ std::string disassemble(const Program& program, const LoweredCode& code,
       }
       std::string line =
           cat({padded(text(pc), 5, true), padded(text(cost_of(program, code, pc)), 6, true), "  ",
-               padded(std::string(name(code.instructions[pc].op)), 12), " ", instruction(program, code, pc)});
+               padded(std::string(name(code.instructions[pc].op)), 12), " ",
+               instruction(program, code, pc)});
       out += cat({line.substr(0, line.find_last_not_of(' ') + 1), "\n"});
     }
     out += "\n";

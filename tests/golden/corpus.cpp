@@ -134,8 +134,8 @@ std::vector<Limit> make_limits() {
        constants(limits::kExpressionDepth / 2 + 2), "E0316", ""},
       {"kSlots", values(limits::kSlots / 2), values(limits::kSlots), "E0315", "", "too many"},
       {"kIfDepth", choices(limits::kIfDepth), choices(limits::kIfDepth + 3), "E0315", "", "If"},
-      {"kMoves", wide_calls(limits::kMoves / 13000), wide_calls(limits::kMoves / 11900), "E0315", "",
-       "too many values"},
+      {"kMoves", wide_calls(limits::kMoves / 13000), wide_calls(limits::kMoves / 11900), "E0315",
+       "", "too many values"},
       {"kStackBlocks", large_frames(100), large_frames(1400), "", "CallDepth"},
       {"kSourceBytes", bytes(limits::kSourceBytes), bytes(limits::kSourceBytes + 1), "E0162", ""},
   };

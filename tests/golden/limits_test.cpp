@@ -8,8 +8,8 @@
 #include <set>
 #include <sstream>
 
-#include "tests/golden/corpus.h"
 #include "stdlib/stdlib.h"
+#include "tests/golden/corpus.h"
 #include "tests/golden/evaluate.h"
 #include "vm/limits.h"
 

@@ -41,6 +41,15 @@ inline constexpr VariableRead kReads[] = {
 };
 inline constexpr int kVariables = static_cast<int>(std::size(kReads));
 
+/// The definitions of v0, v1, ...: components of variables, or numbers.
+inline std::string variables(const std::vector<float>& numbers) {
+  std::string text;
+  for (std::size_t k = 0; k < std::size(kReads); ++k)
+    text += numbers.empty() ? fmt::format("real v{}() = {};\n", k, kReads[k].text)
+                            : fmt::format("real v{}() = {:.9f};\n", k, numbers[k]);
+  return text;
+}
+
 /// What every script begins with: definitions that the random ones use.
 inline constexpr const char* kPrelude =
     "pair typeid struct real a; integer b; end;\n"

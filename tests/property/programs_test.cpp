@@ -42,15 +42,6 @@ constexpr int kDoubleLanes[] = {1, 2, 5};
 /// Lanes of the largest batch that is compared.
 constexpr int kMostLanes = kSanitized ? 32 : 512;
 
-/// The definitions of v0, v1, ...: components of variables, or numbers.
-std::string variables(const std::vector<float>& numbers) {
-  std::string text;
-  for (std::size_t k = 0; k < std::size(kReads); ++k)
-    text += numbers.empty() ? fmt::format("real v{}() = {};\n", k, kReads[k].text)
-                            : fmt::format("real v{}() = {:.9f};\n", k, numbers[k]);
-  return text;
-}
-
 /// Machines that are kept between programs: they are costly to make.
 template <class R>
 class Machines {

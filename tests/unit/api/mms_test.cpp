@@ -231,6 +231,39 @@ TEST_CASE("evaluation says what it cannot do") {
   CHECK(log() == "");
 }
 
+TEST_CASE("bounds enclose an output over a box, and say what is wrong with a bad one") {
+  const Linked linked(
+      "surface \"s\" height = $position[0] * $position[0]; scattering = rgb(0.25, 0.5, 0.75); end\n"
+      "volume \"v\" absorption = 2 + $object_position[2]; end\n");
+  REQUIRE_MESSAGE(linked.context, linked.log);
+  const MMsSurface* surface = mmsGetSurface(linked.program, "s");
+  float lo[2] = {}, hi[2] = {};
+  const auto log = [&] { return std::string(mmsGetContextLog(linked.context)); };
+  REQUIRE(mmsBoundSurface(linked.context, surface, "height", nullptr, 0, 1, lo, hi));
+  CHECK(lo[0] == 0.0f);
+  CHECK(hi[0] == 1.0f);
+  const float from[] = {2, -1, -1}, to[] = {3, 1, 1};
+  const MMsInterval box{"position", from, to};
+  REQUIRE(mmsBoundSurface(linked.context, surface, "height", &box, 1, 4, lo, hi));
+  CHECK(lo[0] == 4.0f);
+  CHECK(hi[0] == 9.0f);
+  REQUIRE(mmsBoundSurface(linked.context, surface, "scattering", nullptr, 0, 1, lo, hi));
+  CHECK(lo[0] <= 0.25f);
+  CHECK(hi[0] >= 0.75f);
+  REQUIRE(mmsBoundVolume(linked.context, mmsGetVolume(linked.program, "v"), "absorption", nullptr,
+                         0, 1, lo, hi));
+  CHECK(lo[0] == 1.0f);
+  CHECK(hi[0] == 3.0f);
+
+  const MMsInterval unknown{"positoin", from, to}, backwards{"position", to, from};
+  CHECK_FALSE(mmsBoundSurface(linked.context, surface, "height", &unknown, 1, 1, lo, hi));
+  CHECK(log().find("position") != std::string::npos);
+  CHECK_FALSE(mmsBoundSurface(linked.context, surface, "height", &backwards, 1, 1, lo, hi));
+  CHECK(log().find("no interval") != std::string::npos);
+  CHECK_FALSE(mmsBoundSurface(linked.context, surface, "bsdf", nullptr, 0, 1, lo, hi));
+  CHECK(log().find("bsdf") != std::string::npos);
+}
+
 TEST_CASE("a null handle fails quietly") {
   MMsGraph* graph = nullptr;
   CHECK(mmsParseString(graph, "") == 0);
