@@ -28,7 +28,7 @@ std::vector<bool> needed(const IrFunction& f, const std::vector<Ref>& roots) {
   std::vector<bool> seen(f.nodes.size(), false);
   std::vector<std::uint32_t> pending;
   auto visit = [&](Ref r) {
-    if (!moves(f.type(r)) || seen[r.node]) return;
+    if (!moves(f.type(r)) || f.nodes[r.node].steady || seen[r.node]) return;
     seen[r.node] = true;
     pending.push_back(r.node);
   };
@@ -229,6 +229,14 @@ void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
               call.node, static_cast<std::uint16_t>(k), function_};
       return;
     }
+    case Op::LoadLocal: {
+      if (direction == kAlongNothing || t.count(r) || unknown_arguments_) return;
+      const auto meant = stands_for_.find(r);
+      if (meant != stands_for_.end()) return set(derive(t, meant->second, 0, direction));
+      diagnostics_.add(Diag::NoDerivative, deriving_.span, "what a recursion hands on")
+          .help(deriving_.help);
+      return;
+    }
     default:
       return;  // what gives integers and logic values, and RealOfInt, whose argument does not move
   }
@@ -255,6 +263,40 @@ Value Elaborator::derive_gradient(const Value& height, Span span) {
   v.type = types_.array(TypeTable::kReal, 2);
   v.parts = std::move(parts);
   return v;
+}
+
+/// How much each real of `value` changes across the pixel: the length of its change for a step of
+/// one column of `$footprint` and for one of the other. A box as wide has the variance of the
+/// pixel's projection.
+Value Elaborator::across_footprint(const Value& value) {
+  const Deriving outer = deriving_;
+  deriving_ = {user_span_,
+               "where a recursion begins, find the width and hand it on as an argument"};
+  std::vector<Ref> all;
+  flatten(value, all);
+  for (Ref& r : all) {
+    std::optional<Ref> along[2], across[2];
+    for (int direction : {kAlongTangent, kAlongBitangent}) {
+      Tangents t;
+      along[direction] = derive(t, localise(r), 0, direction);
+    }
+    const int footprint = vm::input_index(vm::Variable::Footprint);
+    for (int column = 0; column < 2; ++column)
+      for (int row = 0; row < 2; ++row)
+        if (along[row])
+          across[column] = sum(across[column],
+                               node(Op::MulR, {*along[row], input(footprint + 2 * row + column)}));
+    r = across[0] ? call_library("hypot",
+                                 {scalar(TypeTable::kReal, *across[0]),
+                                  scalar(TypeTable::kReal, *across[1])},
+                                 user_span_)
+                        .refs[0]
+                  : real(0);
+    module.functions[function_].nodes[r.node].steady = true;
+  }
+  deriving_ = outer;
+  std::size_t next = 0;
+  return unflatten(value.type, all, next);
 }
 
 }  // namespace mms::lang

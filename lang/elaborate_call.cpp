@@ -534,6 +534,7 @@ std::vector<Value> Elaborator::with_defaults(FunctionDecl* d, const Match& m,
   const Context outside{d->graph, d->scope};
   const bool defaults = std::find(m.argument.begin(), m.argument.end(), -1) != m.argument.end();
   const Context inside{d->graph, defaults ? new_scope(d->scope, d->library) : nullptr};
+  if (defaults) declare_generics(inside.scope, f, m.generics);
   std::vector<Value> formals;
   for (std::size_t i = 0; i < f.formals.size(); ++i) {
     const int k = m.argument[i];

@@ -47,6 +47,7 @@ Value Elaborator::call_intrinsic(std::string_view name, const std::vector<BoundA
     if (a.value.poison()) return {};
   if (name == "array") return tabulate(args[0].value, args[1].value);
   if (name == "gradient") return gradient_of(args[0].value, args[1].value);
+  if (name == "across_footprint") return across_footprint(args[0].value);
   return at_each_wavelength(args[0].value, args[1].value);
 }
 
@@ -112,7 +113,10 @@ std::vector<Ref> Elaborator::substitute(std::uint32_t first, const std::vector<R
     const std::size_t count = n.results.size();
     const vm::Constant* decided = n.op == Op::If ? known(args[0]) : nullptr;
     Ref r;
-    if (!decided) r = node(n.op, args, n.a, n.b, n.results);
+    if (!decided) {
+      r = node(n.op, args, n.a, n.b, n.results);
+      module.functions[function_].nodes[r.node].steady = n.steady;
+    }
     for (std::size_t k = 0; k < count; ++k)
       now[{i, static_cast<std::uint16_t>(k), function_}] =
           decided ? args[1 + k + (decided->integer ? 0 : count)]
@@ -141,7 +145,10 @@ Value Elaborator::gradient_of(const Value& f, const Value& point) {
   std::vector<Ref> at, x, partials;
   flatten(point, at);
   const std::uint32_t first = static_cast<std::uint32_t>(module.functions[function_].nodes.size());
-  for (std::size_t k = 0; k < at.size(); ++k) x.push_back(stand_in());
+  for (const Ref r : at) {
+    x.push_back(stand_in());
+    stands_for_[x.back()] = localise(r);
+  }
   std::size_t next = 0;
   const auto value = call_for_real(f, unflatten(point.type, x, next));
   if (!value) return {};
@@ -163,6 +170,7 @@ Value Elaborator::gradient_of(const Value& f, const Value& point) {
 Value Elaborator::at_each_wavelength(const Value& f, const Value& spectrum) {
   const std::uint32_t first = static_cast<std::uint32_t>(module.functions[function_].nodes.size());
   const Ref x = stand_in();
+  stands_for_[x] = real(0);  // a wavelength is the same in all of the pixel
   const auto value = call_for_real(f, scalar(TypeTable::kReal, x));
   if (!value) return {};
   const Ref s = localise(spectrum.refs[0]);

@@ -78,11 +78,8 @@ Value Elaborator::invoke(FunctionDecl* d, const std::vector<Value>& formals, con
   return v;
 }
 
-Value Elaborator::inline_body(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g,
-                              TypeId result) {
-  const Function& f = d->function();
-  Scope* scope = new_scope(d->scope, d->library);
-  const Context c{d->graph, scope};
+/// What the formals of `f` bring besides themselves: types, and sizes of arrays.
+void Elaborator::declare_generics(Scope* scope, const Function& f, const Generics& g) {
   for (const auto& [name, type] : g.types) {
     Binding b;
     b.form = Binding::Form::Type;
@@ -94,6 +91,14 @@ Value Elaborator::inline_body(FunctionDecl* d, const std::vector<Value>& formals
     b.value = scalar(TypeTable::kInteger, integer(size));
     declare(scope, {name, f.name.span}, std::move(b));
   }
+}
+
+Value Elaborator::inline_body(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g,
+                              TypeId result) {
+  const Function& f = d->function();
+  Scope* scope = new_scope(d->scope, d->library);
+  const Context c{d->graph, scope};
+  declare_generics(scope, f, g);
   for (std::size_t i = 0; i < formals.size(); ++i) {
     Binding b;
     b.value = formals[i];

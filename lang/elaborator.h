@@ -237,6 +237,7 @@ class Elaborator {
   Value construct(TypeId type, std::vector<BoundArgument>& args, Span span);
   Value invoke(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g, TypeId result,
                Span span);
+  void declare_generics(Scope* scope, const Function& f, const Generics& g);
   Value inline_body(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g,
                     TypeId result);
   Value call_instance(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g,
@@ -276,6 +277,7 @@ class Elaborator {
   std::uint16_t derive_function(std::uint16_t function, int direction);
   Ref sum(std::optional<Ref> a, std::optional<Ref> b);
   Value derive_gradient(const Value& height, Span span);
+  Value across_footprint(const Value& value);
 
   // --- types without values (elaborate_peek.cpp): kPoison where the text alone does not say ---
   TypeId peek(Context c, ExprHandle h);
@@ -365,6 +367,8 @@ class Elaborator {
   std::map<const Source*, std::uint32_t> source_index_;
   std::map<std::pair<std::uint16_t, int>, std::uint16_t> derived_;  ///< by function and direction
   Deriving deriving_;
+  std::map<Ref, Ref>
+      stands_for_;  ///< the value whose place an argument holds that nobody knows yet
   Span user_span_;  ///< where a script called the function of the library that is being inlined
   std::map<std::pair<Descriptor::Form, std::string>, Span> descriptor_names_;
   Scope* library_scope_ = nullptr;

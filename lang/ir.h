@@ -35,6 +35,7 @@ struct Node {
   std::vector<vm::SlotType> results;
   vm::SourceLine line;
   std::int32_t known = -1;  ///< the constant it is certain to be, where it has one result
+  bool steady = false;      ///< differentiation takes it for constant
 };
 
 struct IrFunction {

@@ -121,3 +121,18 @@ end;
 /// >>> mod(-1.0, 3.0)
 /// 2
 real mod(real a, b) = a % b;
+
+/// How wide the pixel is, measured in `x`: the change of x across `$footprint`, exactly; at most
+/// 1e6. Hand it as `width` to what can be filtered. Differentiation takes it for constant.
+/// >>> filter_width($time)
+/// 0
+real filter_width(real x)
+    width = intrinsic::across_footprint(x);
+    return select width, if width < 1e6; 1e6 otherwise; end;
+
+/// `filter_width` of each element.
+/// >>> filter_width([1, 2])
+/// [0, 0]
+real[n] filter_width(real[n] p)
+    width = intrinsic::across_footprint(p);
+    return map(function(w) -> select w, if w < 1e6; 1e6 otherwise end, width);
