@@ -232,6 +232,8 @@ void Job::account(const Integrator& integrator) {
   report_.emission_runs += s.emission_runs;
   report_.medium_runs += s.medium_runs;
   report_.media_steps += f.media_steps;
+  report_.medium_samples += f.medium_samples;
+  report_.denser_samples += f.denser_samples;
   report_.rays += f.rays;
   report_.shadow_rays += f.shadow_rays;
   for (const auto& [where, lanes] : integrator.scripts().faults()) faults_[where] += lanes;

@@ -51,9 +51,17 @@ Result<Rendered> render(const vm::Program& program, const Scene& scene,
   }
   const Accel accel(data, collected);
   const Lights lights(data, findings->radiance);
-  World world{
-      data, compiled, accel, lights,       CameraRays(data.camera, options.width, options.height),
-      {},   {},       plain, options.seed, options.max_depth};
+  World world{data,
+              compiled,
+              accel,
+              lights,
+              CameraRays(data.camera, options.width, options.height),
+              {},
+              {},
+              plain,
+              options.seed,
+              options.max_depth,
+              std::move(findings->majorants)};
   for (int i = 0; i < int(data.objects.size()); ++i)
     world.sealed.push_back(sealed(data, compiled, i));
   for (int i = 0; i < int(data.objects.size()); ++i)

@@ -27,22 +27,34 @@ generic T mix(generic T a, b, real t) = a + (b - a) * t;
 real mix(real a, b, t) = a + (b - a) * t;
 
 /// `mix` of arrays of numbers, element by element.
+/// >>> mix([0, 2], [1, 4], 0.5)
+/// [0.5, 3]
 real[n] mix(real[n] a, b, real t) = a + (b - a) * t;
 
 /// `mix` of matrices of numbers.
+/// >>> mix([1, 0; 0, 1], [0, 1; 1, 0], 0.25)
+/// [0.75, 0.25, 0.25, 0.75]
 real[r, c] mix(real[r, c] a, b, real t) = a + (b - a) * t;
 
 /// The array [f(0), f(1), ...] of n elements; n is known at link.
+/// >>> array(4, function(i) -> i * i)
+/// [0, 1, 4, 9]
 T[n] array(integer n, function(integer) -> generic T f) = intrinsic::array(n, f);
 
 /// The array [f(a[0]), f(a[1]), ...]; of a matrix, f takes the rows.
+/// >>> map(#sqrt, [1.0, 4.0])
+/// [1, 2]
 U[n] map(function(generic T) -> generic U f, T[n] a) = array(n, function(k) -> f(a[k]));
 
 /// The array [f(a[0], b[0]), f(a[1], b[1]), ...].
+/// >>> zip(#*, [1, 2], [3, 4])
+/// [3, 8]
 V[n] zip(function(generic T, generic U) -> generic V f, T[n] a, U[n] b) =
     array(n, function(k) -> f(a[k], b[k]));
 
 /// f(... f(f(first, a[0]), a[1]) ..., a[n - 1]): `fold(#+, 0, a)` is the sum.
+/// >>> fold(#+, 0, [1.5, 2.5])
+/// 4
 U fold(function(generic U, generic T) -> U f, U first, T[n] a)
     U upto(integer k, U so_far) = select
         so_far, if k == n;
@@ -51,9 +63,13 @@ U fold(function(generic U, generic T) -> U f, U first, T[n] a)
     return upto(0, first);
 
 /// The exact derivative of f at x.
+/// >>> gradient(function(x) -> x ^ 3, 2.0)
+/// 12
 real gradient(function(real) -> real f, real x) = intrinsic::gradient(f, x);
 
 /// The exact partial derivatives of f at p.
+/// >>> gradient(function(q) -> q.x ^ 2 * q.y, [2, 3])
+/// [12, 4]
 real[n] gradient(function(real[n]) -> real f, real[n] p) = intrinsic::gradient(f, p);
 
 /// x limited to [0, 1].
@@ -105,8 +121,3 @@ end;
 /// >>> mod(-1.0, 3.0)
 /// 2
 real mod(real a, b) = a % b;
-
-/// a - b trunc(a / b): has the sign of a.
-/// >>> fmod(-1.0, 3.0)
-/// -1
-real fmod(real a, b) = a - b * trunc(a / b);

@@ -31,7 +31,11 @@ spectrum gaussian_band(real centre, width)
     return exp(-0.5 * d * d);
 
 /// f of each wavelength, in metres: any function of a real becomes a spectrum.
+/// >>> spectral(function(l) -> 2 * l) / $wavelength
+/// 2
 spectrum spectral(function(real) -> real f) = intrinsic::spectral(f, $wavelength);
 
 /// f of each value of a spectrum.
+/// >>> spectral(#sqrt, rgb(0.25, 0.25, 0.25))
+/// 0.5
 spectrum spectral(function(real) -> real f, spectrum s) = intrinsic::spectral(f, s);
