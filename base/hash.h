@@ -6,6 +6,8 @@
 /// nothing owns a random state.
 
 #include <cstdint>
+#include <cstring>
+#include <span>
 
 namespace mms {
 
@@ -19,6 +21,17 @@ constexpr std::uint64_t mix64(std::uint64_t x) {
 
 constexpr std::uint64_t hash_combine(std::uint64_t a, std::uint64_t b) {
   return mix64(a ^ mix64(b));
+}
+
+/// Of bytes, eight at a time. Not for adversaries: it tells mistakes, not forgeries.
+inline std::uint64_t hash_bytes(std::span<const char> bytes, std::uint64_t start = 0) {
+  std::uint64_t h = hash_combine(start, bytes.size());
+  for (std::size_t i = 0; i < bytes.size(); i += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + i, bytes.size() - i < 8 ? bytes.size() - i : 8);
+    h = mix64(h ^ word);
+  }
+  return h;
 }
 
 /// A number in [0, 1) from the top 53 bits.

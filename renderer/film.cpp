@@ -65,8 +65,14 @@ void FilmSums::restart(Rect rect) {
 
 std::vector<BlockSums>& FilmSums::open_block(int b) {
   if (b >= int(blocks_.size())) blocks_.resize(std::size_t(b) + 1);
-  if (blocks_[b].empty()) blocks_[b].resize(std::size_t(across_) * std::size_t(down_));
+  if (blocks_[b].empty()) blocks_[b].resize(probes());
   return blocks_[b];
+}
+
+void FilmSums::restore(std::vector<PixelSums> pixels, std::vector<std::vector<BlockSums>> blocks) {
+  assert(pixels.size() == pixels_.size());
+  pixels_ = std::move(pixels);
+  blocks_ = std::move(blocks);
 }
 
 SampleFate FilmSums::add(const FilmSample& s) {

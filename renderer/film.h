@@ -101,7 +101,11 @@ class FilmSums {
     return b < int(blocks_.size()) ? std::span<const BlockSums>(blocks_[b])
                                    : std::span<const BlockSums>();
   }
-  int probes_across() const { return across_; }
+  int blocks() const { return int(blocks_.size()); }
+  std::size_t probes() const { return std::size_t(across_) * std::size_t(down_); }
+
+  /// Takes sums that were kept. \pre as many as there are pixels, and probes or none in each block.
+  void restore(std::vector<PixelSums> pixels, std::vector<std::vector<BlockSums>> blocks);
 
   /// Means, and the variance of each by the scatter of its samples as if they were independent.
   Film develop() const;

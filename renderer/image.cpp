@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Picture files, through OpenImageIO.
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 
+#include "base/file.h"
 #include "materials/colour.h"
+#include "renderer/film_file.h"
 #include "renderer/render.h"
 #include "renderer/scene.h"
 
@@ -30,14 +31,6 @@ std::string extension_of(const std::string& path) {
   std::string e = fs::path(path).extension().string();
   std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return std::tolower(c); });
   return e;
-}
-
-/// A name beside `path`, so that renaming it into place is atomic. The extension stays.
-std::string temporary_beside(const std::string& path) {
-  const fs::path p(path);
-  const std::string name =
-      fmt::format(".{}.{}.part{}", p.stem().string(), ::getpid(), extension_of(path));
-  return (p.parent_path() / name).string();
 }
 
 std::vector<unsigned char> display_pixels(const Film& film, double exposure) {
@@ -65,16 +58,23 @@ std::vector<float> linear_pixels(const Film& film) {
   return values;
 }
 
-bool write_pixels(OIIO::ImageOutput& out, const std::string& path, const OIIO::ImageSpec& spec,
-                  const void* pixels) {
-  return out.open(path, spec) && out.write_image(spec.format, pixels) && out.close();
+/// The picture file as bytes, in memory: it is put in place in one step.
+Result<std::string> encode(const std::string& path, const OIIO::ImageSpec& spec,
+                           const void* pixels) {
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(path, &memory);
+  if (!out) return Error{path, "cannot make the picture: " + OIIO::geterror(), kSupported};
+  if (!out->open(path, spec) || !out->write_image(spec.format, pixels) || !out->close())
+    return Error{path, "cannot make the picture: " + out->geterror(), ""};
+  return std::string(bytes.begin(), bytes.end());
 }
 
 }  // namespace
 
 Result<Done> check_writable(const std::string& path) {
   const std::string extension = extension_of(path);
-  if (extension != ".png" && extension != ".exr")
+  if (extension != ".png" && extension != ".exr" && extension != kFilmExtension)
     return Error{path,
                  extension.empty() ? "the output has no extension"
                                    : fmt::format("unsupported image type `{}`", extension),
@@ -87,10 +87,9 @@ Result<Done> check_writable(const std::string& path) {
     return Error{path, fmt::format("no folder `{}`", folder.string()), "make it first"};
   if (fs::exists(path, ignored) && ::access(path.c_str(), W_OK) != 0)
     return Error{path, "the output cannot be written", "check its permissions"};
-  const std::string trial = temporary_beside(path);
-  const bool written = bool(std::ofstream(trial) << "");
-  fs::remove(trial, ignored);
-  if (!written)
+  // What replaces a file is made beside it.
+  const std::string beside = folder.empty() ? "." : folder.string();
+  if (::access(beside.c_str(), W_OK) != 0)
     return Error{path, "the output cannot be written", "check the permissions of its folder"};
   return Done{};
 }
@@ -98,27 +97,21 @@ Result<Done> check_writable(const std::string& path) {
 Result<Done> write_image(const std::string& path, const Film& film, const ToneOptions& tone) {
   if (const Result<Done> ok = check_writable(path); !ok) return ok;
   const bool png = extension_of(path) == ".png";
-  const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(path);
-  if (!out) return Error{path, "cannot write the picture: " + OIIO::geterror(), kSupported};
-  const std::string trial = temporary_beside(path);
   OIIO::ImageSpec spec(film.width, film.height, png ? 3 : 4,
                        png ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT);
-  bool good = false;
+  Result<std::string> bytes = std::string();
   if (png) {
     spec.attribute("oiio:ColorSpace", "sRGB");
-    good = write_pixels(*out, trial, spec, display_pixels(film, tone.exposure).data());
+    bytes = encode(path, spec, display_pixels(film, tone.exposure).data());
   } else {
     spec.channelnames = {"R", "G", "B", "variance"};
     spec.attribute("oiio:ColorSpace", "Linear");
     spec.attribute("compression", "zip");
-    good = write_pixels(*out, trial, spec, linear_pixels(film).data());
+    bytes = encode(path, spec, linear_pixels(film).data());
   }
-  std::error_code failed;
-  if (good) fs::rename(trial, path, failed);
-  if (good && !failed) return Done{};
-  const std::string why = good ? failed.message() : out->geterror();
-  fs::remove(trial, failed);
-  return Error{path, "cannot write the picture: " + why, ""};
+  if (!bytes) return bytes.error();
+  if (const auto error = replace_file(path, *bytes)) return *error;
+  return Done{};
 }
 
 Result<EnvironmentImage> load_environment(const std::string& path) {

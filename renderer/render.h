@@ -159,7 +159,7 @@ struct ToneOptions {
 
 struct Done {};
 
-/// Whether `path` has a supported extension and can be written. Leaves no file behind.
+/// Whether `path` has a supported extension (pictures and films) and its folder can be written to.
 Result<Done> check_writable(const std::string& path);
 
 /// Writes .png (8-bit sRGB, tone mapped) or .exr (32-bit float linear sRGB primaries and a

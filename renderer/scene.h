@@ -79,6 +79,7 @@ struct SceneData {
   Camera camera;
   Environment environment;
   std::string test_surface, test_volume;  ///< descriptors bound to the test object
+  std::uint64_t hash = 0;  ///< of all that is seen but for the scripts; made by `load_scene`
 
   Bounds scene_bounds() const;
 };

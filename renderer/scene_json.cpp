@@ -8,10 +8,12 @@
 #include <fstream>
 #include <initializer_list>
 #include <limits>
+#include <span>
 #include <sstream>
 
 #include <fmt/format.h>
 
+#include "base/hash.h"
 #include "base/warp.h"
 #include "lang/diagnostics.h"
 #include "renderer/scene.h"
@@ -351,6 +353,27 @@ class Parser {
   SceneData data_;
 };
 
+/// Of the text, of what was read from the files that it names, and of what the test object wears.
+std::uint64_t hash_of(const SceneData& data, std::string_view text) {
+  const auto add = [](std::uint64_t h, const auto& values) {
+    const auto bytes = std::as_bytes(std::span(values));
+    return hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, h);
+  };
+  static_assert(sizeof(Vec3f) == 3 * sizeof(float));  // no padding
+  std::uint64_t h = hash_bytes(text);
+  h = hash_bytes(data.test_surface, h);
+  h = hash_bytes(data.test_volume, h);
+  for (const Object& o : data.objects)
+    if (const Mesh* mesh = std::get_if<Mesh>(&o.shape)) {
+      h = add(h, mesh->positions);
+      h = add(h, mesh->triangles);
+      h = add(h, mesh->normals);
+      h = add(h, mesh->uvs);
+    }
+  if (data.environment.image) h = add(h, data.environment.image->rgb);
+  return h;
+}
+
 }  // namespace
 
 Result<SceneData> parse_scene(const vm::Program& program, const SceneSource& source,
@@ -395,6 +418,7 @@ Result<Scene> load_scene(const vm::Program& program, const SceneSource& source) 
   }
   Result<SceneData> data = parse_scene(program, source, text, origin, folder);
   if (!data) return data.error();
+  data->hash = hash_of(*data, text);
   return Scene(std::make_shared<const SceneData>(std::move(*data)));
 }
 

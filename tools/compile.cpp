@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "api/library.h"
+#include "base/file.h"
 #include "tools/commands.h"
-#include "tools/file.h"
 #include "tools/script.h"
 #include "vm/serialise.h"
 

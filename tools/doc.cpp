@@ -12,10 +12,10 @@
 #include <fmt/format.h>
 
 #include "api/library.h"
+#include "base/file.h"
 #include "lang/parser.h"
 #include "tools/commands.h"
 #include "tools/document.h"
-#include "tools/file.h"
 #include "tools/html.h"
 #include "tools/script.h"
 #include "tools/script_document.h"

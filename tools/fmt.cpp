@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "api/library.h"
+#include "base/file.h"
 #include "lang/format.h"
 #include "tools/commands.h"
-#include "tools/file.h"
 #include "tools/script.h"
 
 namespace mms::tools {

@@ -2,7 +2,6 @@
 // mms render: its options, and whether they make sense.
 #include "tools/render.h"
 
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -14,14 +13,6 @@
 namespace mms::tools {
 
 namespace {
-
-template <class T>
-std::optional<T> number(const std::string& text) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 /// Reads a whole number of [low, high] from an option.
 std::optional<Error> read(const char* option, const std::string& text, int low, int high,
@@ -91,12 +82,12 @@ std::optional<Error> read_numbers(RenderRequest& r) {
   if (!seed)
     return Error{"--seed", fmt::format("`{}` is not a seed", r.seed), "any whole number from 0 up"};
   r.seed_number = *seed;
-  const auto stops = number<double>(r.exposure);
-  if (!stops || !(*stops >= -64 && *stops <= 64))
-    return Error{"--exposure", fmt::format("`{}` is not a number of stops", r.exposure),
-                 "each stop doubles the brightness; from -64 to 64"};
-  r.stops = *stops;
-  return std::nullopt;
+  const auto seconds = number<double>(r.checkpoint);
+  if (!seconds || !(*seconds >= 0))
+    return Error{"--checkpoint", fmt::format("`{}` is not a number of seconds", r.checkpoint),
+                 "how much work may be lost at most; 0 is never"};
+  r.checkpoint_seconds = *seconds;
+  return read_picture_options(r);
 }
 
 Exit render(RenderRequest request) {
@@ -104,9 +95,9 @@ Exit render(RenderRequest request) {
   return render_pictures(request);
 }
 
-void add_picture_options(Verb& verb, RenderRequest& r) {
+void add_render_options(Verb& verb, RenderRequest& r) {
   verb.add({"-o,--output", &r.output, "PATH",
-            "Picture (.png or .exr), or a folder for NAME.png of each script"});
+            "Picture (.png, .exr), exact sums (.film), or a folder for each NAME.png"});
   verb.add({"--samples", &r.samples, "N|A:B", "Samples for each pixel [64], or their numbers"});
   verb.add({"--time", &r.time, "SECONDS", "End after so long"});
   verb.add({"--error", &r.error, "E", "End when the estimated error is no larger; 1 is white"});
@@ -120,12 +111,13 @@ void add_picture_options(Verb& verb, RenderRequest& r) {
       {"--scene", &r.scene, "NAME|FILE", "A built-in scene, or a scene file (.json) [sphere]"});
   verb.add({"--surface", &r.surface, "NAME", "Surface that the test object wears"});
   verb.add({"--volume", &r.volume, "NAME", "Volume that fills the test object"});
-  verb.add({"--exposure", &r.exposure, "STOPS", "Stops that brighten a .png [0]"});
   verb.add({"--max-depth", &r.max_depth, "N", "Scattering events of a path [64]"});
   verb.add({"--seed", &r.seed, "N", "Same seed, same picture, bit for bit [0]"});
   verb.add({"--threads", &r.threads, "N", "Threads; 0 is all of the machine [0]"});
   verb.add({"--report", &r.report, "", "Print the counters of the render too"});
-  verb.add({"--quiet", &r.quiet, "", "Print errors only"});
+  verb.add({"--checkpoint", &r.checkpoint, "SECONDS",
+            "Keep what is there in PATH.film so often; 0 is never [60]"});
+  verb.add({"--resume", &r.resume, "", "Go on from PATH.film, if it is there"});
 }
 
 }  // namespace
@@ -134,7 +126,9 @@ Verb render_verb() {
   auto request = std::make_shared<RenderRequest>();
   Verb verb{"render",
             "Render scripts to pictures of a test object",
-            "Ctrl-C stops, writes what is there, and ends with code 130.\n\nExamples:\n"
+            "Ctrl-C stops, writes what is there, and ends with code 130; --resume goes on from "
+            "there, to the\n"
+            "bits of a render that was not stopped.\n\nExamples:\n"
             "  mms render marble.mms\n  mms render marble.mms -o marble.exr --samples 256\n"
             "  mms render marble.mms --error 0.01 --time 60\n"
             "  mms render examples/*.mms -o out/ --size 256x256\n"
@@ -142,6 +136,7 @@ Verb render_verb() {
             {},
             [request] { return render(*request); }};
   add_files(verb, *request, "Scripts, a picture of each");
+  add_render_options(verb, *request);
   add_picture_options(verb, *request);
   add_script_options(verb, *request);
   add_format_option(verb, *request);

@@ -7,22 +7,22 @@
 #include <cstdint>
 #include <string>
 
-#include "tools/script.h"
+#include "tools/picture.h"
 
 namespace mms::tools {
 
-struct RenderRequest : ScriptOptions {
+struct RenderRequest : PictureOptions {
   std::string output;  ///< as given; empty, a file, or a folder
   std::string size = "512x512";
   int width = 512, height = 512;  ///< from `size`
-  std::string samples, threads = "0", max_depth = "64", seed = "0", exposure = "0";
+  std::string samples, threads = "0", max_depth = "64", seed = "0", checkpoint = "60";
   std::string time, error, filter = "blackman-harris";
   int first_sample = 0, end_sample = 64, thread_count = 0, depth = 64;
   double seconds = 0, error_limit = 0;  ///< 0 is none
   std::uint64_t seed_number = 0;
-  double stops = 0;
   std::string scene = "sphere", surface, volume;
-  bool quiet = false, report = false;
+  double checkpoint_seconds = 60;  ///< 0 is never
+  bool resume = false, report = false;
 };
 
 /// Renders each script to its picture. In a build without the renderer: says that it cannot.

@@ -5,12 +5,17 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "api/library.h"
+#include "base/hash.h"
+#include "renderer/film_file.h"
 #include "renderer/render.h"
 #include "tools/render.h"
+#include "vm/serialise.h"
 
 namespace mms::tools {
 
@@ -23,9 +28,9 @@ using Json = nlohmann::ordered_json;
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-extern "C" void on_interrupt(int) {
+extern "C" void on_interrupt(int signal) {
   interrupted = true;
-  std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends at once
+  std::signal(signal, SIG_DFL);  // a second Ctrl-C ends at once
 }
 
 std::string stem(const std::string& file) {
@@ -170,7 +175,8 @@ Exit verdict(const RenderRequest& request, const std::string& path, const render
                  "check the condition that ends the recursion on this line"},
                 request);
   if (!r.stopped) return Exit::Ok;
-  fmt::print(stderr, "stopped: {} holds what was there, {} samples per pixel\n", path, r.samples);
+  fmt::print(stderr, "stopped: {} holds what was there, {} samples per pixel; --resume goes on\n",
+             path, r.samples);
   return Exit::Interrupted;
 }
 
@@ -181,6 +187,66 @@ Exit scene_exit(const std::string& name) {
   std::error_code ignored;
   if (fs::exists(name, ignored)) return Exit::Script;
   return name.ends_with(".json") || name.find('/') != std::string::npos ? Exit::File : Exit::Usage;
+}
+
+/// Where the exact sums of a render to `path` are kept while it goes on.
+std::string checkpoint_path(const std::string& path) {
+  return path.ends_with(renderer::kFilmExtension) ? path
+                                                  : path + std::string(renderer::kFilmExtension);
+}
+
+/// A number for the linked program, the same wherever its files are.
+std::uint64_t script_hash(const vm::Program& program) {
+  vm::Package package{program, {}, {}};
+  for (std::string& name : package.program.sources) name.clear();
+  const std::vector<std::byte> bytes = vm::save(package, api::standard_library().builtins);
+  return hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+/// What an earlier render left, or nothing where there is none. Errors: damaged, or of another
+/// picture.
+Result<std::shared_ptr<const renderer::PartialFilm>> earlier(const std::string& checkpoint,
+                                                             const renderer::FilmKey& key) {
+  std::shared_ptr<const renderer::PartialFilm> none;
+  std::error_code ignored;
+  if (!fs::exists(checkpoint, ignored)) return none;
+  auto stored = renderer::load_film(checkpoint);
+  if (!stored) return stored.error();
+  if (const std::string other = renderer::difference(stored->key, key); !other.empty())
+    return Error{checkpoint, "is of another picture: " + other,
+                 "give the options it was made with, or leave --resume out"};
+  return std::make_shared<const renderer::PartialFilm>(std::move(stored->film));
+}
+
+/// Keeps the sums of a render, and says once if that cannot be done.
+class Checkpoint {
+ public:
+  Checkpoint(std::string path, const renderer::FilmKey& key) : path_(std::move(path)), key_(key) {}
+  void save(const renderer::PartialFilm& film) {
+    const auto saved = renderer::save_film(path_, key_, film);
+    if (!saved && !std::exchange(failed_, true))
+      fmt::print(stderr, "\nwarning: {}: {}; rendering goes on\n", saved.error().where,
+                 saved.error().what);
+  }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  renderer::FilmKey key_;
+  bool failed_ = false;
+};
+
+/// Writes what was asked for, and leaves a checkpoint behind where work would be lost without.
+Result<renderer::Done> write_result(const RenderRequest& request, const std::string& path,
+                                    Checkpoint& checkpoint, const renderer::FilmKey& key,
+                                    const renderer::Rendered& r) {
+  if (path == checkpoint.path()) return renderer::save_film(path, key, *r.sums);
+  if (r.report.stopped) checkpoint.save(*r.sums);
+  const auto written = renderer::write_image(path, r.film, {request.stops});
+  if (!written && !r.report.stopped) checkpoint.save(*r.sums);
+  std::error_code ignored;
+  if (written && !r.report.stopped) fs::remove(checkpoint.path(), ignored);
+  return written;
 }
 
 Exit render_one(const RenderRequest& request, const std::string& file, const std::string& path) {
@@ -198,13 +264,24 @@ Exit render_one(const RenderRequest& request, const std::string& file, const std
   if (!scene) return fail(scene_exit(request.scene), scene.error(), request);
 
   renderer::RenderOptions options = render_options(request);
+  const renderer::FilmKey key = renderer::film_key(*scene, options, script_hash(linked->program));
+  Checkpoint checkpoint(checkpoint_path(path), key);
+  if (request.resume) {
+    const auto found = earlier(checkpoint.path(), key);
+    if (!found) return fail(Exit::File, found.error(), request);
+    options.begin_with = *found;
+  }
+  if (request.checkpoint_seconds > 0) {
+    options.save = [&](const renderer::PartialFilm& film) { checkpoint.save(film); };
+    options.save_seconds = request.checkpoint_seconds;
+  }
   auto rendered = [&] {
     const ProgressLine line(!request.quiet && isatty(STDERR_FILENO), path);
     options.progress = [&line](const renderer::Progress& p) { line.show(p); };
     return renderer::render(linked->program, *scene, options);
   }();
   if (!rendered) return fail(Exit::Budget, rendered.error(), request);
-  const auto written = renderer::write_image(path, rendered->film, {request.stops});
+  const auto written = write_result(request, path, checkpoint, key, *rendered);
   if (!written) return fail(Exit::File, written.error(), request);
   print_report(request, file, path, rendered->report);
   return verdict(request, path, rendered->report);
@@ -222,6 +299,7 @@ Exit render_pictures(const RenderRequest& request) {
     paths.push_back(*path);
   }
   std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);  // what batch systems send
   Exit worst = Exit::Ok;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const Exit exit = render_one(request, request.files[i], paths[i]);

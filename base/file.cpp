@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/file.h"
+#include "base/file.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,21 +8,19 @@
 #include <cstring>
 #include <filesystem>
 
-#include <fmt/format.h>
-
-namespace mms::tools {
+namespace mms {
 
 namespace {
 
 namespace fs = std::filesystem;
 
 Error failed(const std::string& path, int cause) {
-  return {path, fmt::format("cannot be written: {}", std::strerror(cause)),
+  return {path, std::string("cannot be written: ") + std::strerror(cause),
           "check who may write to its folder, and that the disk is not full"};
 }
 
 /// Writes all of `text` and waits until it is on the disk.
-bool write_all(int file, const std::string& text) {
+bool write_all(int file, std::string_view text) {
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t n = ::write(file, text.data() + done, text.size() - done);
     if (n < 0 && errno == EINTR) continue;
@@ -34,7 +32,7 @@ bool write_all(int file, const std::string& text) {
 
 }  // namespace
 
-std::optional<Error> replace_file(const std::string& path, const std::string& text) {
+std::optional<Error> replace_file(const std::string& path, std::string_view text) {
   std::error_code code;
   const fs::path target = fs::weakly_canonical(path, code);
   if (code) return failed(path, code.value());
@@ -56,4 +54,4 @@ std::optional<Error> replace_file(const std::string& path, const std::string& te
   return failed(path, cause);
 }
 
-}  // namespace mms::tools
+}  // namespace mms

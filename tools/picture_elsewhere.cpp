@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// mms render, handed on to `mms-render` beside this program: the same command with the renderer
-// linked in. Loading Embree and OpenImageIO takes far longer than checking a script, so the verbs
-// that draw nothing do without them.
+// The verbs over pictures, handed on to `mms-render` beside this program: the same command with the
+// renderer linked in. Loading Embree and OpenImageIO takes far longer than checking a script, so
+// the verbs that draw nothing do without them.
 #include <unistd.h>
 
 #include <cerrno>
@@ -11,11 +11,14 @@
 #include <iterator>
 #include <vector>
 
+#include "tools/merge.h"
 #include "tools/render.h"
 
 namespace mms::tools {
 
-Exit render_pictures(const RenderRequest& request) {
+namespace {
+
+Exit start_renderer(const ScriptOptions& options) {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::string line{std::istreambuf_iterator<char>(file), {}};
   std::vector<char*> arguments;
@@ -29,7 +32,12 @@ Exit render_pictures(const RenderRequest& request) {
   return fail(Exit::File,
               {program.string(), std::string("cannot be started: ") + std::strerror(errno),
                "it is built and installed beside mms: build again, or install both"},
-              request);
+              options);
 }
+
+}  // namespace
+
+Exit render_pictures(const RenderRequest& request) { return start_renderer(request); }
+Exit merge_films(const MergeRequest& request) { return start_renderer(request); }
 
 }  // namespace mms::tools

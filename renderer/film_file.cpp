@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/film_file.h"
+
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "base/file.h"
+#include "base/hash.h"
+#include "renderer/scene.h"
+
+namespace mms::renderer {
+namespace {
+
+// Sums are copied as they lie in memory.
+static_assert(std::endian::native == std::endian::little);
+static_assert(sizeof(PixelSums) == 80 && std::is_trivially_copyable_v<PixelSums>);
+
+constexpr std::string_view kFilmMagic = "\x89mmf\r\n\x1a\n";
+constexpr std::uint32_t kFilmVersion = 1;
+constexpr std::size_t kHashAt = 12, kBodyAt = 20;
+constexpr int kLargestSide = 32768;
+
+void put(std::string& out, const void* data, std::size_t size) {
+  out.append(static_cast<const char*>(data), size);
+}
+template <class T>
+void put(std::string& out, const T& value) {
+  static_assert(std::is_trivially_copyable_v<T> && std::has_unique_object_representations_v<T>);
+  put(out, &value, sizeof value);
+}
+
+/// Takes values from the front of bytes; past the end it gives zeros and remembers.
+class Reader {
+ public:
+  explicit Reader(std::string_view bytes) : rest_(bytes) {}
+  template <class T>
+  T get() {
+    T value{};
+    get(&value, sizeof value);
+    return value;
+  }
+  void get(void* to, std::size_t size) {
+    if (size > rest_.size()) {
+      good_ = false;
+      rest_ = {};
+      return;
+    }
+    std::memcpy(to, rest_.data(), size);
+    rest_.remove_prefix(size);
+  }
+  std::size_t left() const { return rest_.size(); }
+  bool good() const { return good_; }
+
+ private:
+  std::string_view rest_;
+  bool good_ = true;
+};
+
+void put_key(std::string& out, const FilmKey& k) {
+  put(out, std::int32_t(k.width));
+  put(out, std::int32_t(k.height));
+  put(out, std::int32_t(k.filter));
+  put(out, std::int32_t(k.max_depth));
+  put(out, k.seed);
+  put(out, k.script);
+  put(out, k.scene);
+}
+
+/// Empty where no picture can have such a key.
+std::optional<FilmKey> get_key(Reader& in) {
+  FilmKey k;
+  k.width = in.get<std::int32_t>();
+  k.height = in.get<std::int32_t>();
+  const auto filter = in.get<std::int32_t>();
+  k.max_depth = in.get<std::int32_t>();
+  k.seed = in.get<std::uint64_t>();
+  k.script = in.get<std::uint64_t>();
+  k.scene = in.get<std::uint64_t>();
+  if (k.width < 1 || k.width > kLargestSide || k.height < 1 || k.height > kLargestSide) return {};
+  if (filter < 0 || filter >= int(filters().size())) return {};
+  k.filter = FilterShape(filter);
+  return k;
+}
+
+void put_samples(std::string& out, const SampleSet& set) {
+  put(out, std::uint32_t(set.ranges().size()));
+  for (const SampleSet::Range& r : set.ranges()) {
+    put(out, r.first);
+    put(out, r.second);
+  }
+}
+
+bool get_samples(Reader& in, SampleSet& set) {
+  const auto count = in.get<std::uint32_t>();
+  for (std::uint32_t i = 0; i < count && in.good(); ++i) {
+    const auto first = in.get<std::uint32_t>(), second = in.get<std::uint32_t>();
+    if (first >= second || second > std::uint32_t(kMostSamples)) return false;
+    set.add({first, second});
+  }
+  return in.good();
+}
+
+bool get_film(Reader& in, PartialFilm& film) {
+  for (SampleSet& s : film.done)
+    if (!get_samples(in, s)) return false;
+  std::vector<PixelSums> pixels(film.sums.pixels().size());
+  in.get(pixels.data(), pixels.size() * sizeof(PixelSums));
+  const auto blocks = in.get<std::uint32_t>();
+  if (!in.good() || blocks > 32) return false;
+  std::vector<std::vector<BlockSums>> all(blocks);
+  for (auto& block : all) {
+    if (in.get<std::uint8_t>() == 0) continue;
+    block.resize(film.sums.probes());
+    for (BlockSums& b : block) {
+      b.y = in.get<Int128>();
+      b.weight = in.get<std::int64_t>();
+    }
+  }
+  if (!in.good() || in.left() > 0) return false;
+  film.sums.restore(std::move(pixels), std::move(all));
+  return true;
+}
+
+std::string contents(const FilmKey& key, const PartialFilm& film) {
+  std::string out(kFilmMagic);
+  put(out, kFilmVersion);
+  put(out, std::uint64_t(0));  // of the hash
+  put_key(out, key);
+  for (const SampleSet& s : film.done) put_samples(out, s);
+  put(out, film.sums.pixels().data(), film.sums.pixels().size_bytes());
+  put(out, std::uint32_t(film.sums.blocks()));
+  for (int b = 0; b < film.sums.blocks(); ++b) {
+    put(out, std::uint8_t(!film.sums.block(b).empty()));
+    for (const BlockSums& s : film.sums.block(b)) {
+      put(out, s.y);
+      put(out, s.weight);
+    }
+  }
+  const std::uint64_t hash = hash_bytes(std::span(out).subspan(kBodyAt));
+  std::memcpy(out.data() + kHashAt, &hash, sizeof hash);
+  return out;
+}
+
+}  // namespace
+
+FilmKey film_key(const Scene& scene, const RenderOptions& options, std::uint64_t script) {
+  return {options.width,     options.height, options.filter,   options.seed,
+          options.max_depth, script,         scene.data().hash};
+}
+
+std::string difference(const FilmKey& a, const FilmKey& b) {
+  if (a.width != b.width || a.height != b.height)
+    return fmt::format("size {}x{} and {}x{}", a.width, a.height, b.width, b.height);
+  if (a.filter != b.filter)
+    return fmt::format("filter {} and {}", filters()[std::size_t(a.filter)].name,
+                       filters()[std::size_t(b.filter)].name);
+  if (a.seed != b.seed) return fmt::format("seed {} and {}", a.seed, b.seed);
+  if (a.max_depth != b.max_depth) return fmt::format("depth {} and {}", a.max_depth, b.max_depth);
+  if (a.script != b.script) return "other scripts or settings";
+  if (a.scene != b.scene) return "other scenes, surfaces or volumes";
+  return "";
+}
+
+Result<Done> save_film(const std::string& path, const FilmKey& key, const PartialFilm& film) {
+  if (const auto error = replace_file(path, contents(key, film))) return *error;
+  return Done{};
+}
+
+Result<StoredFilm> load_film(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  if (!file && bytes.empty()) return Error{path, "cannot be read", "is it there?"};
+  const std::string hint = "films are what `mms render -o NAME.film` and checkpoints write";
+  if (!bytes.starts_with(kFilmMagic) || bytes.size() < kBodyAt)
+    return Error{path, "is no film", hint};
+  std::uint32_t version = 0;
+  std::memcpy(&version, bytes.data() + kFilmMagic.size(), sizeof version);
+  if (version != kFilmVersion)
+    return Error{path,
+                 fmt::format("is a film of version {}; this mms reads {}", version, kFilmVersion),
+                 "render it anew"};
+  std::uint64_t hash = 0;
+  std::memcpy(&hash, bytes.data() + kHashAt, sizeof hash);
+  const Error damaged{path, "is damaged", "render it anew"};
+  if (hash != hash_bytes(std::span(bytes).subspan(kBodyAt))) return damaged;
+  Reader in(std::string_view(bytes).substr(kBodyAt));
+  const std::optional<FilmKey> key = get_key(in);
+  // Nothing is allocated that the file's length does not pay for.
+  if (!key || in.left() < std::size_t(key->width) * std::size_t(key->height) * sizeof(PixelSums))
+    return damaged;
+  StoredFilm stored{*key, PartialFilm(key->width, key->height, key->filter)};
+  if (!get_film(in, stored.film)) return damaged;
+  return stored;
+}
+
+}  // namespace mms::renderer

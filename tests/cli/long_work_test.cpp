@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// Renders that take long: split, stopped, killed, out of disk. Nothing is lost and nothing differs.
+#include <cstdlib>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/command.h"
+#include "tests/sanitized.h"
+
+using mms::cli::Folder;
+using mms::cli::Outcome;
+
+namespace {
+
+constexpr const char* kScript = "surface \"s\" bsdf = matte(0.5 + 0.4 * $position[1]); end\n";
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// Runs well and silently.
+void good(const Folder& folder, const std::string& args) {
+  const Outcome run = folder.mms(args);
+  INFO(args, ": ", run.err);
+  REQUIRE(run.exit == 0);
+}
+
+#if MMS_RENDERER
+int kills() {
+  const char* text = std::getenv("MMS_KILLS");
+  return text ? std::atoi(text) : 3;
+}
+#endif
+
+}  // namespace
+
+#if MMS_RENDERER
+
+TEST_CASE("parts of a picture add up to its very bytes: any split, order, filter and threads") {
+  for (const char* filter : {"box", "blackman-harris"}) {
+    CAPTURE(filter);
+    const Folder folder;
+    folder.write("s.mms", kScript);
+    const std::string render =
+        std::string("render s.mms --quiet --size 40x24 --filter ") + filter + " ";
+    good(folder, render + "--samples 24 -o whole.film --threads 2");
+    good(folder, render + "--samples 0:3 -o a.film --threads 1");
+    good(folder, render + "--samples 3:13 -o b.film --threads 3");
+    good(folder, render + "--samples 13:24 -o c.film");
+    good(folder, "merge c.film a.film b.film -o sum.film");
+    CHECK(folder.read("sum.film") == folder.read("whole.film"));
+    // In two steps, and going on from a part.
+    good(folder, "merge a.film c.film -o ac.film");
+    good(folder, "merge b.film ac.film -o sum.film");
+    CHECK(folder.read("sum.film") == folder.read("whole.film"));
+    good(folder, render + "--samples 24 -o ac.film --resume");
+    CHECK(folder.read("ac.film") == folder.read("whole.film"));
+    // The picture of the sum is the picture of the whole.
+    good(folder, render + "--samples 24 -o whole.png");
+    good(folder, "merge sum.film -o sum.png");
+    CHECK(folder.read("sum.png") == folder.read("whole.png"));
+    CHECK(folder.read("a.film") != folder.read("whole.film"));
+  }
+}
+
+TEST_CASE("what does not add up is refused, and says why") {
+  const Folder folder;
+  folder.write("s.mms", kScript);
+  folder.write("t.mms", "surface \"s\" bsdf = matte(0.5); end\n");
+  const std::string options = " --quiet --size 16x16 ";
+  good(folder, "render s.mms" + options + "--samples 0:4 -o a.film");
+  good(folder, "render s.mms" + options + "--samples 3:5 -o overlap.film");
+  good(folder, "render s.mms" + options + "--samples 4:8 -o seed.film --seed 1");
+  good(folder, "render s.mms" + options + "--samples 4:8 -o filter.film --filter box");
+  good(folder, "render t.mms" + options + "--samples 4:8 -o script.film");
+  good(folder, "render s.mms" + options + "--samples 4:8 -o scene.film --scene furnace");
+  good(folder, "render s.mms --quiet --size 16x17 --samples 4:8 -o size.film");
+  const std::string film = folder.read("a.film");
+  folder.write("cut.film", film.substr(0, film.size() - 1));
+  std::string changed = film;
+  changed[film.size() / 2] = char(changed[film.size() / 2] ^ 4);
+  folder.write("changed.film", changed);
+  folder.write("text.film", "surface");
+  const struct {
+    const char *name, *what;
+  } cases[] = {{"overlap", "samples that are in"},
+               {"seed", "seed 0 and 1"},
+               {"filter", "filter"},
+               {"script", "other scripts"},
+               {"scene", "other scenes"},
+               {"size", "size 16x16 and 16x17"},
+               {"cut", "is damaged"},
+               {"changed", "is damaged"},
+               {"text", "is no film"},
+               {"none", "cannot be read"}};
+  for (const auto& c : cases) {
+    CAPTURE(c.name);
+    const Outcome run = folder.mms("merge a.film " + std::string(c.name) + ".film -o sum.png");
+    CHECK(run.exit == 3);
+    CHECK(contains(run.err, std::string(c.name) + ".film"));
+    CHECK(contains(run.err, c.what));
+    CHECK_FALSE(folder.has("sum.png"));
+  }
+  // Nor does a render go on from another picture.
+  folder.write("p.png.film", folder.read("seed.film"));
+  const Outcome run = folder.mms("render s.mms" + options + "--samples 8 -o p.png --resume");
+  CHECK(run.exit == 3);
+  CHECK(contains(run.err, "is of another picture: seed 1 and 0"));
+  CHECK(folder.read("p.png.film") == folder.read("seed.film"));
+}
+
+TEST_CASE("Ctrl-C keeps what is there, and --resume goes on to the same bits") {
+  const Folder folder;
+  folder.write("s.mms", kScript);
+  const std::string options = "-o cut.png --size 32x32 --seed 5 --quiet ";
+  const Outcome cut = folder.interrupted_render(options + "--samples 100000", kScript);
+  CHECK(cut.exit == 130);
+  CHECK(contains(cut.err, "--resume goes on"));
+  REQUIRE(folder.has("cut.png"));
+  REQUIRE(folder.has("cut.png.film"));
+  // A few samples more than it had when it was stopped.
+  const Outcome there = folder.mms("merge cut.png.film -o there.png --format=json");
+  REQUIRE(there.exit == 0);
+  const int samples = nlohmann::json::parse(there.out)["samples"].get<int>() + 8;
+  CHECK(samples < 100000);
+  good(folder, "render s.mms --resume " + options + "--samples " + std::to_string(samples));
+  CHECK_FALSE(folder.has("cut.png.film"));
+  good(folder, "render s.mms --size 32x32 --seed 5 --quiet -o whole.png --samples " +
+                   std::to_string(samples));
+  CHECK(folder.read("cut.png") == folder.read("whole.png"));
+}
+
+TEST_CASE("a render killed at any moment and resumed ends with the same bits") {
+  const Folder folder;
+  folder.write("s.mms", kScript);
+  const std::string samples = mms::kSanitized ? "64" : "384";
+  const std::string render = "render s.mms --quiet --size 48x48 --samples " + samples + " ";
+  good(folder, render + "-o whole.film");
+  // Each time it goes on from the last checkpoint, which is whole and no earlier than the one
+  // before. RANDOM is seeded; where the killed render stands is up to the machine.
+  const Outcome run = folder.bash(
+      "RANDOM=7; had=0\n"
+      "for i in $(seq " +
+      std::to_string(kills()) +
+      "); do\n"
+      "  mms-render " +
+      render +
+      "-o k.film --checkpoint 0.01 --resume & child=$!\n"
+      "  sleep 0.$((RANDOM % 9))$((RANDOM % 9 + 1))\n"
+      "  kill -9 $child 2>/dev/null; wait $child 2>/dev/null\n"
+      "  [ -e k.film ] || continue\n"
+      "  has=$(mms merge k.film -o k.png --format=json | sed "
+      "'s/.*\"samples\":\\([0-9]*\\).*/\\1/')\n"
+      "  [ -n \"$has\" ] && [ \"$has\" -ge \"$had\" ] || { echo \"$has after $had\"; exit 1; }\n"
+      "  had=$has\n"
+      "done\n"
+      "mms " +
+      render + "-o k.film --resume\n");
+  INFO(run.out, run.err);
+  CHECK(run.exit == 0);
+  CHECK(folder.read("k.film") == folder.read("whole.film"));
+}
+
+TEST_CASE("a full disk leaves the previous picture as it was") {
+  const Folder folder;
+  folder.write("s.mms", kScript);
+  const std::string render = "render s.mms --quiet --size 64x64 --samples 2 ";
+  for (const char* name : {"a.png", "a.exr", "a.film"}) {
+    CAPTURE(name);
+    good(folder, render + "-o " + name);
+    const std::string before = folder.read(name);
+    const int files = folder.file_count();
+    // No file may grow beyond 1 KiB; writing more is an error like that of a full disk.
+    const Outcome run = folder.bash("trap '' XFSZ; ulimit -f 1; mms " + render + "--seed 3 -o " +
+                                    name + " 2>&1 | cat; exit ${PIPESTATUS[0]}");
+    INFO(run.out, run.err);
+    CHECK(run.exit == 3);
+    CHECK(contains(run.out, "cannot be written"));
+    CHECK(folder.read(name) == before);
+    CHECK(folder.file_count() == files);
+  }
+}
+
+#else
+
+TEST_CASE("merge says that it is not built") {
+  const Folder folder;
+  const Outcome run = folder.mms("merge a.film -o a.png");
+  CHECK(run.exit == 2);
+  CHECK(contains(run.err, "without the renderer"));
+}
+
+#endif

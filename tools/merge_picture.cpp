@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// mms merge: films to one film or picture.
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "renderer/error.h"
+#include "renderer/film_file.h"
+#include "tools/merge.h"
+
+namespace mms::tools {
+
+namespace {
+
+using renderer::StoredFilm;
+
+/// The sum of all; what stands in its way.
+Result<StoredFilm> add_up(const std::vector<std::string>& paths) {
+  Result<StoredFilm> sum = renderer::load_film(paths[0]);
+  if (!sum) return sum;
+  for (std::size_t i = 1; i < paths.size(); ++i) {
+    const Result<StoredFilm> part = renderer::load_film(paths[i]);
+    if (!part) return part.error();
+    if (const std::string other = renderer::difference(sum->key, part->key); !other.empty())
+      return Error{paths[i], fmt::format("is of another picture than {}: {}", paths[0], other),
+                   "only parts of one picture add up: same scripts, scene and options"};
+    if (sum->film.meets(part->film))
+      return Error{paths[i], "has samples that are in an earlier file too",
+                   "give each part numbers of its own: --samples 0:64, --samples 64:128"};
+    sum->film.add(part->film);
+  }
+  return sum;
+}
+
+void print_report(const MergeRequest& request, const StoredFilm& sum) {
+  std::uint32_t fewest = ~0u;
+  for (const renderer::PixelSums& p : sum.film.sums.pixels()) fewest = std::min(fewest, p.samples);
+  const double error = renderer::ErrorEstimate(sum.film.sums, sum.film.complete()).rmse();
+  if (request.json())
+    fmt::print(
+        "{}\n",
+        nlohmann::ordered_json{{"picture", request.output}, {"samples", fewest}, {"error", error}}
+            .dump());
+  else if (!request.quiet)
+    fmt::print("{}: {} samples per pixel, estimated error {:.2g}\n", request.output, fewest, error);
+}
+
+}  // namespace
+
+Exit merge_films(const MergeRequest& request) {
+  if (const auto ok = renderer::check_writable(request.output); !ok)
+    return fail(Exit::File, ok.error(), request);
+  const Result<StoredFilm> sum = add_up(request.films);
+  if (!sum) return fail(Exit::File, sum.error(), request);
+  const auto written =
+      request.output.ends_with(renderer::kFilmExtension)
+          ? renderer::save_film(request.output, sum->key, sum->film)
+          : renderer::write_image(request.output, sum->film.develop(), {request.stops});
+  if (!written) return fail(Exit::File, written.error(), request);
+  print_report(request, *sum);
+  return Exit::Ok;
+}
+
+}  // namespace mms::tools
