@@ -5,65 +5,113 @@
 /// What stands behind the handles of mms.h.
 
 #include <deque>
+#include <exception>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "api/mms.h"
+#include "base/result.h"
 #include "lang/link.h"
 #include "materials/layout.h"
 #include "vm/interpreter.h"
 
+namespace mms::api {
+
+struct LinkedProgram;
+
+/// The messages of the last call on a handle, and who is told of each.
+struct Messages {
+  std::string text;
+  MMsLog log = nullptr;
+  void* user = nullptr;
+
+  void add(int severity, const std::string& message) {
+    text += message;
+    if (log) log(user, severity, message.c_str());
+  }
+  void add(const Error& error);
+};
+
+}  // namespace mms::api
+
 struct MMsGraph {
   std::optional<mms::lang::Graph> graph;  ///< of the last parse without errors
-  std::string log;
+  mms::api::Messages messages;
 };
 
 struct MMsSurface {
+  const mms::api::LinkedProgram* owner;
   const mms::vm::Descriptor* descriptor;
-  mms::materials::Layout bsdf;
+  mms::materials::Layout bsdf, emission;
 };
 
 struct MMsVolume {
+  const mms::api::LinkedProgram* owner;
   const mms::vm::Descriptor* descriptor;
-};
-
-struct MMsProgram {
-  std::vector<mms::lang::Graph> graphs;
-  mms::lang::LinkOptions options;
-  std::optional<mms::lang::Linked> linked;
-  std::optional<mms::vm::Executable> executable;
-  std::deque<MMsSurface> surfaces;  // addresses stay
-  std::deque<MMsVolume> volumes;
-  std::string log;
-};
-
-struct MMsContext {
-  explicit MMsContext(const MMsProgram& p)
-      : program(&p), in(p.executable->width()), machine(p.executable->width()) {}
-
-  const MMsProgram* program;
-  mms::vm::InputBatch<float> in;
-  mms::vm::Interpreter<float> machine;
-  std::string log;
+  mms::materials::Layout phase, emission;
 };
 
 namespace mms::api {
 
-/// Runs `body`, which returns whether it succeeded; what it throws (no memory) goes to `log`.
+/// What a link gives. Immutable; contexts share it, so that one may outlive the next link.
+struct LinkedProgram {
+  explicit LinkedProgram(lang::Linked l);
+
+  lang::Linked linked;
+  vm::Executable executable;
+  std::deque<MMsSurface> surfaces;  // addresses stay
+  std::deque<MMsVolume> volumes;
+};
+
+}  // namespace mms::api
+
+struct MMsProgram {
+  std::vector<mms::lang::Graph> graphs;
+  mms::lang::LinkOptions options;
+  MMsResolve resolve = nullptr;
+  void* resolve_user = nullptr;
+  std::shared_ptr<const mms::api::LinkedProgram>
+      linked;  ///< none before a link, or after a failed one
+  mms::api::Messages messages;
+};
+
+struct MMsContext {
+  explicit MMsContext(std::shared_ptr<const mms::api::LinkedProgram> l)
+      : linked(std::move(l)), in(linked->executable.width()), machine(linked->executable.width()) {}
+
+  std::shared_ptr<const mms::api::LinkedProgram> linked;
+  mms::vm::InputBatch<float> in;
+  mms::vm::Interpreter<float> machine;
+  mms::api::Messages messages;
+};
+
+namespace mms::api {
+
+/// Runs `body`, which returns whether it succeeded. What it throws (no memory; an exception of a
+/// host's callback; a fault of ours) goes to `messages`.
 template <class Body>
-int guarded(std::string& log, Body body) noexcept {
-  try {
-    log.clear();
-    return body() ? 1 : 0;
-  } catch (...) {
-    log.clear();
+int guarded(Messages& messages, Body body) noexcept {
+  const auto say = [&](const char* what) noexcept {
     try {
-      log = "out of memory";
+      messages.text.clear();
+      messages.add(MMS_ERROR, what);
     } catch (...) {  // the log stays empty
     }
     return 0;
+  };
+  try {
+    messages.text.clear();
+    return body() ? 1 : 0;
+  } catch (const std::bad_alloc&) {
+    return say("out of memory");
+  } catch (const std::exception& e) {
+    return say(e.what());
+  } catch (...) {
+    return say("a callback threw");
   }
 }
 

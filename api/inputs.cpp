@@ -30,6 +30,10 @@ constexpr Default kDefaults[] = {
     {vm::Variable::Bitangent, {0, 1, 0}},
     {vm::Variable::View, {0, 0, 1}},
     {vm::Variable::Distance, {1}},
+    {vm::Variable::ObjectTangent, {1, 0, 0}},
+    {vm::Variable::ObjectBitangent, {0, 1, 0}},
+    {vm::Variable::NormalTangent, {1, 0, 0}},
+    {vm::Variable::NormalBitangent, {0, 1, 0}},
     {vm::Variable::Wavelength, {400e-9, 450e-9, 500e-9, 550e-9, 600e-9, 650e-9, 700e-9, 750e-9}},
 };
 
@@ -64,7 +68,7 @@ void fill_lanes(vm::InputBatch<R>& in, vm::Variable v, const R* values, std::siz
 template <class R>
 void fill_defaults(vm::InputBatch<R>& in) {
   for (const vm::VariableInfo& row : vm::kVariables) {
-    if (row.visibility == vm::Visibility::Hidden) continue;
+    if (!may_be_set(row.variable)) continue;
     std::vector<R> values(static_cast<std::size_t>(value_count(row.variable)), R(0));
     for (const Default& d : kDefaults)
       if (d.variable == row.variable)
@@ -73,10 +77,15 @@ void fill_defaults(vm::InputBatch<R>& in) {
   }
 }
 
+bool may_be_set(vm::Variable v) {
+  const vm::VariableInfo& row = vm::info(v);
+  return row.visibility == vm::Visibility::Public || row.slot_type() != vm::SlotType::Spectrum;
+}
+
 Result<vm::Variable> find_variable(std::string_view name) {
   std::vector<std::string> names;
   for (const vm::VariableInfo& row : vm::kVariables) {
-    if (row.visibility == vm::Visibility::Hidden) continue;
+    if (!may_be_set(row.variable)) continue;
     if (row.name == name) return row.variable;
     names.emplace_back(row.name);
   }

@@ -19,6 +19,10 @@ struct Filled {};
 template <class R>
 void fill_defaults(vm::InputBatch<R>& in);
 
+/// Whether a host says what `v` is: every variable that scripts can name, and the changes along the
+/// tangents that derived gradients need (`object_tangent`, ...).
+bool may_be_set(vm::Variable v);
+
 /// The values that a variable takes for one point: components, or one for each wavelength.
 /// The error names the nearest variable where there is none of that name.
 Result<vm::Variable> find_variable(std::string_view name);

@@ -12,6 +12,16 @@
 
 namespace mms::api {
 
+/// The entries of a descriptor by name.
+struct NamedEntry {
+  const char* name;
+  const vm::Entry vm::Descriptor::*entry;
+};
+inline constexpr NamedEntry kEntries[] = {{"shade", &vm::Descriptor::shade},
+                                          {"pass", &vm::Descriptor::pass},
+                                          {"emit", &vm::Descriptor::emit},
+                                          {"displace", &vm::Descriptor::displace}};
+
 /// `bsdf` or `phase`, `scattering`, ...; empty where that form has no such output.
 std::string_view output_name(vm::DescriptorForm form, vm::Output output);
 

@@ -1,5 +1,5 @@
 // Old bottle glass: green by absorption, with drifting cloudy streaks inside.
-// A volume that varies states the largest value that scattering + absorption can reach.
+// A volume that varies may state the largest value of scattering + absorption; else it is enclosed (docs/bounds.md).
 param real cloud = 7.0 in [0, 50], unit = "1/m", label = "Cloudiness";
 
 surface murky_glass

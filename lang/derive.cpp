@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Exact derivatives: forward differentiation of the linker's graph. The opcode rules are here,
-/// those of builtins are expressions in the rows, those of variables are names in their table.
+/// Exact derivatives: forward differentiation of the linker's graph. The opcode rules are here, and
+/// stated in their table; those of builtins are expressions in the rows (derive_rules.cpp), those
+/// of variables are names in their table.
 ///
 /// A choice is differentiated arm by arm: at a jump the derivative is the one of the arm taken, a
 /// step has derivative zero. `floor`-like rows state the derivative 0.
 
 #include "lang/elaborator.h"
-#include "lang/parser.h"
 
 namespace mms::lang {
 
@@ -16,13 +16,19 @@ using vm::SlotType;
 
 namespace {
 
+/// Whether values of the type have derivatives: integers and logic values do not move.
+bool moves(SlotType t) { return t == SlotType::Real || t == SlotType::Spectrum; }
+
+/// The type of a value's derivative: real for what does not move.
+SlotType derivative_type(SlotType t) { return t == SlotType::Spectrum ? t : SlotType::Real; }
+
 /// The nodes whose derivative the derivative of `roots` asks for: conditions and integers are not
 /// among them, so what only they need may lack a rule.
 std::vector<bool> needed(const IrFunction& f, const std::vector<Ref>& roots) {
   std::vector<bool> seen(f.nodes.size(), false);
   std::vector<std::uint32_t> pending;
   auto visit = [&](Ref r) {
-    if (f.type(r) != SlotType::Real || f.nodes[r.node].steady || seen[r.node]) return;
+    if (!moves(f.type(r)) || f.nodes[r.node].steady || seen[r.node]) return;
     seen[r.node] = true;
     pending.push_back(r.node);
   };
@@ -42,59 +48,18 @@ std::optional<Ref> Elaborator::tangent(const Tangents& t, Ref r) const {
   return it == t.end() ? std::nullopt : std::optional<Ref>(it->second);
 }
 
-Ref Elaborator::sum(std::optional<Ref> a, std::optional<Ref> b) {
-  return a && b ? node(Op::AddR, {*a, *b}) : a ? *a : *b;
+/// `op` over reals, or its counterpart over spectra where one of the arguments is one.
+Ref Elaborator::derived_op(Op op, Op spectral, std::vector<Ref> args) {
+  bool any = false;
+  for (Ref a : args) any = any || slot_type(a) == SlotType::Spectrum;
+  if (!any) return node(op, std::move(args));
+  for (Ref& a : args)
+    if (slot_type(a) == SlotType::Real) a = node(Op::Splat, {a});
+  return node(spectral, std::move(args));
 }
 
-/// Differentiates results of a builtin by its row's rule: one expression for each formal.
-void Elaborator::derive_builtin(const Node& n, Ref r, Tangents& t) {
-  const vm::Builtin* row = module.builtins[n.a];
-  bool active = false;
-  for (Ref a : n.args) active = active || t.count(a);
-  if (!active) return;
-  if (row->derivative.empty() || n.results.size() != 1) {
-    diagnostics_.add(Diag::NoDerivative, deriving_.span, row->signature).help(deriving_.help);
-    return;
-  }
-  graphs_.push_back(
-      parse_signature(make_source("<library>", std::string(row->signature)), diagnostics_));
-  const Graph& signature = graphs_.back();
-  Scope* scope = new_scope(library_scope_, true);
-  std::size_t next = 0;
-  std::vector<std::pair<std::size_t, Value>> formals;  // first argument, value
-  for (const Formal& f : signature.functions[0].formals) {
-    const std::size_t first = next;
-    Binding b;
-    b.value = unflatten(resolve_type({&signature, library_scope_}, f.type, nullptr), n.args, next);
-    formals.emplace_back(first, b.value);
-    declare(scope, f.name, std::move(b));
-  }
-  std::string_view rest = row->derivative;
-  std::optional<Ref> total;
-  for (const auto& [first, formal] : formals) {
-    const std::size_t end = rest.find(';');
-    const std::string_view rule = rest.substr(0, end);
-    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
-    std::vector<Ref> flat;
-    flatten(formal, flat);
-    bool moves = false;
-    for (Ref a : flat) moves = moves || t.count(a);
-    if (!moves) continue;
-    graphs_.push_back(parse_expression(
-        make_source("<derivative of " + std::string(row->signature) + ">", std::string(rule)),
-        diagnostics_));
-    const Graph& g = graphs_.back();
-    const Value partial = expr({&g, scope}, {static_cast<std::uint32_t>(g.exprs.size() - 1)});
-    std::vector<Ref> partials;
-    flatten(widen(partial, formal.type), partials);
-    for (std::size_t k = 0; k < flat.size() && k < partials.size(); ++k) {
-      const auto d = tangent(t, flat[k]);
-      const vm::Constant* zero = known(partials[k]);
-      if (!d || (zero && zero->f64 == 0)) continue;
-      total = sum(total, node(Op::MulR, {partials[k], *d}));
-    }
-  }
-  if (total) t[r] = *total;
+Ref Elaborator::sum(std::optional<Ref> a, std::optional<Ref> b) {
+  return a && b ? derived_op(Op::AddR, Op::AddS, {*a, *b}) : a ? *a : *b;
 }
 
 /// Whether all of the function is there to be differentiated; says so where it is not.
@@ -106,8 +71,8 @@ bool Elaborator::is_complete(std::uint16_t function) {
   return false;
 }
 
-/// The function of the derivatives: parameters of `function`, then the derivative of each real one;
-/// results: the derivative of each result (zero for what is no real).
+/// The function of the derivatives: parameters of `function`, then the derivative of each that
+/// moves; results: the derivative of each result (zero for what does not move).
 std::uint16_t Elaborator::derive_function(std::uint16_t function, int direction) {
   auto it = derived_.find({function, direction});
   if (it != derived_.end()) return it->second;
@@ -125,16 +90,16 @@ std::uint16_t Elaborator::derive_function(std::uint16_t function, int direction)
   Tangents t;
   std::map<std::uint32_t, std::uint32_t> tangent_param;
   for (std::uint32_t p = 0; p < from.params.size(); ++p) {
-    if (from.params[p] != SlotType::Real) continue;
+    if (!moves(from.params[p])) continue;
     tangent_param[p] = static_cast<std::uint32_t>(to.params.size());
-    to.params.push_back(SlotType::Real);
+    to.params.push_back(from.params[p]);
   }
   const std::uint32_t count = static_cast<std::uint32_t>(to.nodes.size());
   for (std::uint32_t i = 0; i < count; ++i) {
     const Node& n = to.nodes[i];
     if (n.op != Op::LoadLocal || !tangent_param.count(n.a)) continue;
     const std::uint32_t p = tangent_param[n.a];
-    t[{i, 0, derived}] = node(Op::LoadLocal, {}, p, 0, {SlotType::Real});
+    t[{i, 0, derived}] = node(Op::LoadLocal, {}, p, 0, {to.params[p]});
   }
   const std::vector<bool> wanted = needed(to, from.results);
   for (std::uint32_t i = 0; i < count; ++i)
@@ -143,7 +108,7 @@ std::uint16_t Elaborator::derive_function(std::uint16_t function, int direction)
   for (Ref r : from.results) {
     r.function = derived;
     const auto d = tangent(t, r);
-    results.push_back(d ? *d : real(0));
+    results.push_back(d ? *d : zero(derivative_type(to.type(r))));
   }
   to.results = std::move(results);
   function_ = here;
@@ -155,17 +120,22 @@ void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
   const Node n = module.functions[function_].nodes[index];
   const Ref r{index, 0, function_};
   auto d = [&](std::size_t k) { return tangent(t, n.args[k]); };
+  auto product = [&](Ref a, Ref b) { return derived_op(Op::MulR, Op::MulS, {a, b}); };
   auto times = [&](std::size_t k, std::optional<Ref> x) {
-    return x ? std::optional<Ref>(node(Op::MulR, {n.args[k], *x})) : std::nullopt;
+    return x ? std::optional<Ref>(product(n.args[k], *x)) : std::nullopt;
   };
   auto set = [&](std::optional<Ref> x) {
     if (x) t[r] = *x;
   };
   auto negative = [&](std::optional<Ref> x) {
-    return x ? std::optional<Ref>(node(Op::NegR, {*x})) : std::nullopt;
+    return x ? std::optional<Ref>(derived_op(Op::NegR, Op::NegS, {*x})) : std::nullopt;
   };
   auto add = [&](std::optional<Ref> x, std::optional<Ref> y) {
     return x || y ? std::optional<Ref>(sum(x, y)) : std::nullopt;
+  };
+  auto or_zero = [&](std::size_t k) {
+    const auto x = d(k);
+    return x ? *x : zero(slot_type(n.args[k]));
   };
   if (n.known >= 0) return;
   switch (n.op) {
@@ -180,50 +150,68 @@ void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
       return;
     }
     case Op::AddR:
+    case Op::AddS:
       return set(add(d(0), d(1)));
     case Op::SubR:
+    case Op::SubS:
       return set(add(d(0), negative(d(1))));
     case Op::NegR:
+    case Op::NegS:
       return set(negative(d(0)));
     case Op::MulR:
+    case Op::MulS:
       return set(add(times(0, d(1)), times(1, d(0))));
     case Op::FmaR:
+    case Op::FmaS:
       return set(add(add(times(0, d(1)), times(1, d(0))), d(2)));
-    case Op::DivR: {  // (da - (a / b) db) / b
-      const auto top = add(d(0), d(1) ? negative(node(Op::MulR, {r, *d(1)})) : std::nullopt);
-      return set(top ? std::optional<Ref>(node(Op::DivR, {*top, n.args[1]})) : std::nullopt);
+    case Op::DivR:
+    case Op::DivS: {  // (da - (a / b) db) / b
+      const auto top = add(d(0), d(1) ? negative(product(r, *d(1))) : std::nullopt);
+      return set(top ? std::optional<Ref>(derived_op(Op::DivR, Op::DivS, {*top, n.args[1]}))
+                     : std::nullopt);
     }
     case Op::ModR: {  // a - b floor(a / b)
       if (!d(1)) return set(d(0));
       const Value quotient = scalar(TypeTable::kReal, node(Op::DivR, {n.args[0], n.args[1]}));
       const Ref whole = call_library("floor", {quotient}, deriving_.span).refs[0];
-      return set(add(d(0), negative(node(Op::MulR, {whole, *d(1)}))));
+      return set(add(d(0), negative(product(whole, *d(1)))));
     }
-    case Op::SelectR: {
-      if (!d(1) && !d(2)) return;
-      return set(node(Op::SelectR, {n.args[0], d(1) ? *d(1) : real(0), d(2) ? *d(2) : real(0)}));
+    case Op::SelectR:
+    case Op::SelectS:
+      return d(1) || d(2) ? set(node(n.op, {n.args[0], or_zero(1), or_zero(2)})) : void();
+    case Op::Splat:
+    case Op::Component:
+      return d(0) ? set(node(n.op, {*d(0)}, n.a)) : void();
+    case Op::Pack: {
+      std::vector<Ref> parts;
+      bool active = false;
+      for (std::size_t k = 0; k < n.args.size(); ++k) {
+        active = active || d(k);
+        parts.push_back(or_zero(k));
+      }
+      return active ? set(node(n.op, std::move(parts))) : void();
     }
     case Op::If: {
       const std::size_t count = n.results.size();
       std::vector<std::size_t> moving;
       for (std::size_t k = 0; k < count; ++k)
-        if (n.results[k] == SlotType::Real && (d(1 + k) || d(1 + count + k))) moving.push_back(k);
+        if (moves(n.results[k]) && (d(1 + k) || d(1 + count + k))) moving.push_back(k);
       if (moving.empty()) return;
       std::vector<Ref> args{n.args[0]};
       for (int arm = 0; arm < 2; ++arm)
-        for (std::size_t k : moving) {
-          const auto x = d(1 + static_cast<std::size_t>(arm) * count + k);
-          args.push_back(x ? *x : real(0));
-        }
-      const Ref choice =
-          node(Op::If, std::move(args), 0, 0, std::vector<SlotType>(moving.size(), SlotType::Real));
+        for (std::size_t k : moving)
+          args.push_back(or_zero(1 + static_cast<std::size_t>(arm) * count + k));
+      std::vector<SlotType> types;
+      for (std::size_t k : moving) types.push_back(n.results[k]);
+      const Ref choice = node(Op::If, std::move(args), 0, 0, std::move(types));
       for (std::size_t k = 0; k < moving.size(); ++k)
         t[{index, static_cast<std::uint16_t>(moving[k]), function_}] = {
             choice.node, static_cast<std::uint16_t>(k), function_};
       return;
     }
     case Op::CallBuiltin:
-      return derive_builtin(n, r, t);
+    case Op::CallSpectral:
+      return derive_builtin(n, r, direction, t);
     case Op::Call: {
       bool active = false;
       for (Ref a : n.args) active = active || t.count(a);
@@ -231,12 +219,12 @@ void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
       const std::uint16_t derived = derive_function(static_cast<std::uint16_t>(n.a), direction);
       std::vector<Ref> args = n.args;
       for (std::size_t k = 0; k < n.args.size(); ++k)
-        if (module.functions[n.a].params[k] == SlotType::Real)
-          args.push_back(d(k) ? *d(k) : real(0));
-      const Ref call = node(Op::Call, std::move(args), derived, 0,
-                            std::vector<SlotType>(n.results.size(), SlotType::Real));
+        if (moves(module.functions[n.a].params[k])) args.push_back(or_zero(k));
+      std::vector<SlotType> types;
+      for (SlotType type : n.results) types.push_back(derivative_type(type));
+      const Ref call = node(Op::Call, std::move(args), derived, 0, std::move(types));
       for (std::size_t k = 0; k < n.results.size(); ++k)
-        if (n.results[k] == SlotType::Real)
+        if (moves(n.results[k]))
           t[{index, static_cast<std::uint16_t>(k), function_}] = {
               call.node, static_cast<std::uint16_t>(k), function_};
       return;
@@ -250,7 +238,7 @@ void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
       return;
     }
     default:
-      return;  // integers, logic and spectra do not move a height
+      return;  // what gives integers and logic values, and RealOfInt, whose argument does not move
   }
 }
 

@@ -52,7 +52,7 @@ std::uint32_t Elaborator::source_index(const Source* s) {
 
 vm::SourceLine Elaborator::line_of(Span s) {
   if (!s.source) return line_;
-  return {source_index(s.source), line_at(*s.source, s.begin)};
+  return {source_index(s.source), line_at(*s.source, s.begin), byte_column(*s.source, s.begin)};
 }
 
 void Elaborator::declare_items(const Graph& graph, Scope* scope) {
@@ -60,6 +60,11 @@ void Elaborator::declare_items(const Graph& graph, Scope* scope) {
   for (const Constant& k : graph.constants) declare_constant(c, k);
   for (const TypeDefinition& t : graph.type_definitions) declare_type(c, t);
   for (FunctionHandle h : graph.top_functions) declare_function(c, h);
+}
+
+/// What makes two imports one: a file may be written in many ways.
+std::string Elaborator::import_key(const std::string& name) const {
+  return options_.resolve ? name : std::filesystem::weakly_canonical(name).string();
 }
 
 void Elaborator::import(const Graph& from, const Import& i, Scope* scope) {
@@ -70,30 +75,42 @@ void Elaborator::import(const Graph& from, const Import& i, Scope* scope) {
     b.scope = space;
     declare(scope, *i.as, std::move(b));
   };
-  namespace fs = std::filesystem;
-  std::vector<fs::path> places{fs::path(from.source->name).parent_path() / i.file};
-  for (const std::string& dir : options_.import_path) places.push_back(fs::path(dir) / i.file);
-  for (const fs::path& place : places) {
-    const std::string key = fs::weakly_canonical(place).string();
-    auto known_file = imported_.find(key);
-    if (closes_circle(key, i)) {  // its names are there all the same: one message is enough
-      if (!i.as && known_file->second != scope) scope->imports.push_back(known_file->second);
-      return name_it(known_file->second);
-    }
-    Scope* space = known_file != imported_.end() ? known_file->second : nullptr;
-    if (!space) {
-      std::optional<std::string> text = read_file(place);
-      if (!text) continue;
-      dependencies.push_back(place.string());
-      graphs_.push_back(parse(make_source(place.string(), std::move(*text)), diagnostics_));
-      if (!i.as && !from.descriptors.empty() && !uses(from, graphs_.back()))
-        diagnostics_.add(Diag::UnusedImport, i.span, i.file);
-      space = new_scope(library_scope_);
-      imported_[key] = space;
-      add_graph(graphs_.back(), space);
-    }
+  auto join = [&](Scope* space) {
     if (!i.as && space != scope) scope->imports.push_back(space);
-    return name_it(space);
+    name_it(space);
+  };
+  auto taken = [&](const std::string& key) {
+    auto known_file = imported_.find(key);
+    closes_circle(key, i);  // its names are there all the same: one message is enough
+    if (known_file == imported_.end()) return false;
+    join(known_file->second);
+    return true;
+  };
+  auto take = [&](const std::string& key, const std::string& name, std::string text) {
+    dependencies.push_back(name);
+    graphs_.push_back(parse(make_source(name, std::move(text)), diagnostics_));
+    if (!i.as && !from.descriptors.empty() && !uses(from, graphs_.back()))
+      diagnostics_.add(Diag::UnusedImport, i.span, i.file);
+    Scope* space = new_scope(library_scope_);
+    imported_[key] = space;
+    add_graph(graphs_.back(), space);
+    join(space);
+  };
+  if (options_.resolve) {
+    if (auto found = options_.resolve(from.source->name, i.file)) {
+      if (!taken(found->name)) take(found->name, found->name, std::move(found->text));
+      return;
+    }
+  } else {
+    namespace fs = std::filesystem;
+    std::vector<fs::path> places{fs::path(from.source->name).parent_path() / i.file};
+    for (const std::string& dir : options_.import_path) places.push_back(fs::path(dir) / i.file);
+    for (const fs::path& place : places) {
+      const std::string key = import_key(place.string());
+      if (taken(key)) return;
+      if (std::optional<std::string> text = read_file(place))
+        return take(key, place.string(), std::move(*text));
+    }
   }
   auto library_module = modules_.find(i.file);
   if (library_module != modules_.end()) return name_it(library_module->second);
@@ -106,10 +123,6 @@ void Elaborator::import(const Graph& from, const Import& i, Scope* scope) {
   const std::string near = nearest(i.file, modules);
   d.help(near.empty() ? "files are looked for beside the script, then in each `-I` folder"
                       : fmt::format("did you mean the library's `{}`?", near));
-}
-
-std::string Elaborator::key_of(const Graph& graph) const {
-  return std::filesystem::weakly_canonical(graph.source->name).string();
 }
 
 /// Whether the file is one of those that led here; says so.
@@ -125,8 +138,8 @@ bool Elaborator::closes_circle(const std::string& key, const Import& i) {
 }
 
 void Elaborator::add_graph(const Graph& graph, Scope* scope) {
-  open_files_.push_back(
-      {key_of(graph), std::filesystem::path(graph.source->name).filename().string()});
+  open_files_.push_back({import_key(graph.source->name),
+                         std::filesystem::path(graph.source->name).filename().string()});
   scope->file = true;
   for (const Import& i : graph.imports) import(graph, i, scope);
   add_params(graph, scope);
@@ -345,7 +358,7 @@ void Elaborator::run(std::span<const Graph> graphs) {
   program_scope_ = new_scope(library_scope_);
   function_ = new_function("params");
   for (const Graph& g : graphs)  // an import of one of these is no other file
-    imported_[key_of(g)] = program_scope_;
+    imported_[import_key(g.source->name)] = program_scope_;
   for (const Graph& g : graphs) add_graph(g, program_scope_);
   for (const DeclaredParam& p : declared_params_) describe_param(*p.graph, *p.param, p.scope);
   for (const auto& setting : options_.params) {

@@ -10,7 +10,7 @@
 /// The class is one; its members are implemented by theme: elaborate_names.cpp (scopes, types),
 /// elaborate_values.cpp (nodes, conversions, operators), elaborate_expr.cpp (expressions),
 /// elaborate_call.cpp (overloads), elaborate_recursion.cpp (inlining), elaborate_top.cpp (items,
-/// descriptors), library.cpp (names of the library), derive.cpp (derivatives).
+/// descriptors), library.cpp (names of the library), derive.cpp and derive_rules.cpp (derivatives).
 
 #include <climits>
 #include <deque>
@@ -246,6 +246,7 @@ class Elaborator {
   std::string instance_key(const FunctionDecl* d, const std::vector<Value>& formals) const;
   std::string describe(const Candidate& k);
   bool any_known(const std::vector<Value>& values) const;
+  std::optional<std::size_t> repeated_call() const;
   void body(Context c, const Body& b);
 
   // --- what only the library may call (elaborate_intrinsics.cpp) ---
@@ -272,7 +273,7 @@ class Elaborator {
   std::optional<Ref> derive(Tangents& t, Ref root, std::uint32_t first, int direction);
   std::optional<Ref> tangent(const Tangents& t, Ref r) const;
   void derive_node(std::uint32_t index, int direction, Tangents& t);
-  void derive_builtin(const Node& n, Ref r, Tangents& t);
+  Ref derived_op(vm::Op op, vm::Op spectral, std::vector<Ref> args);
   bool is_complete(std::uint16_t function);
   std::uint16_t derive_function(std::uint16_t function, int direction);
   Ref sum(std::optional<Ref> a, std::optional<Ref> b);
@@ -296,6 +297,13 @@ class Elaborator {
   void check_function(FunctionDecl* d);
   void check_definitions();
   bool is_generic(Context c, const Function& f);
+  // --- rules of the library's rows (derive_rules.cpp) ---
+  void derive_builtin(const Node& n, Ref r, int direction, Tangents& t);
+  Value rule_value(const vm::Builtin& row, std::string_view rule, Scope* scope);
+  std::vector<Ref> partials_of(const Value& rule, TypeId formal, TypeId result);
+  void add_partial(Tangents& t, Ref r, Ref partial, Ref dx);
+  void derive_twin(const Value& twin, std::uint32_t first, const std::vector<Ref>& results,
+                   int direction, Tangents& t);
 
   // --- items and descriptors (elaborate_top.cpp) ---
   // --- the library (library.cpp) ---
@@ -316,9 +324,9 @@ class Elaborator {
 
   // --- items and descriptors (elaborate_top.cpp) ---
   void add_graph(const Graph& graph, Scope* scope);
+  std::string import_key(const std::string& name) const;
   void import(const Graph& from, const Import& i, Scope* scope);
   void add_params(const Graph& graph, Scope* scope);
-  std::string key_of(const Graph& graph) const;
   bool closes_circle(const std::string& key, const Import& i);
   std::vector<NamedDescriptor> find_descriptors(Context c, const Path& path);
   void export_alias(const Alias& a);

@@ -43,9 +43,20 @@ enum class UnknownParams : std::uint8_t { Refuse, Report };
 /// done: for measuring.
 using StageDone = std::function<void(std::string_view stage)>;
 
+/// A source found for an import. Two of one name are one source.
+struct Imported {
+  std::string name;  ///< what messages call it
+  std::string text;
+};
+
+/// Finds what the source called `importer` imports as `written`; empty if there is no such thing.
+using Resolver =
+    std::function<std::optional<Imported>(const std::string& importer, const std::string& written)>;
+
 struct LinkOptions {
   Level level = Level::O2;
-  std::string dump_after;                                   ///< `Linked::dump`: a name of passes()
+  std::string dump_after;  ///< `Linked::dump`: a name of passes()
+  Resolver resolve;        ///< where there is one, no file is read and `import_path` means nothing
   std::vector<std::string> import_path;                     ///< `-I`, in order
   std::vector<std::pair<std::string, std::string>> params;  ///< `--set name=expression`
   UnknownParams unknown_params = UnknownParams::Refuse;

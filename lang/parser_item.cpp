@@ -364,7 +364,10 @@ bool Parser::statement() {
   const std::string_view word = text(peek());
   const bool loop = (word == "for" || word == "while" || word == "do") &&
                     (peek(1).tok == Tok::LeftParen || peek(1).tok == Tok::LeftBrace);
-  const bool branch = at(Tok::KwIf) || (word == "else" && at(Tok::Identifier));
+  // `else` may be a type's name, where no `if` was before it.
+  const bool other = word == "else" && at(Tok::Identifier) &&
+                     (statement_reported_ || peek(1).tok != Tok::Identifier);
+  const bool branch = at(Tok::KwIf) || other;
   if (!loop && !branch) {
     statement_reported_ = false;
     if (!at(Tok::LeftBrace) && !at(Tok::Identifier, Tok::PlusPlus) &&

@@ -11,6 +11,7 @@
 /// these. Deltas emit nothing.
 
 #include "materials/bsdf.h"
+#include "materials/phase.h"
 
 namespace mms::materials {
 
@@ -20,6 +21,14 @@ namespace mms::materials {
 template <class R>
 inline Spectrum<R> emission_shape(const Layout& layout, const R* params, Vec3<R> w) {
   return Bsdf<R>(layout, params).eval({0, 0, 1}, w, Mode::Importance) * kPi<R>;
+}
+
+/// Shape of a volume's emission towards `w`, a unit vector in world space: 4 pi times the phase
+/// function for light that came along the y axis, so that `isotropic()` and no material are 1.
+template <class R>
+inline Spectrum<R> volume_emission_shape(const Layout& layout, const R* params, Vec3<R> w) {
+  if (layout.empty()) return Spectrum<R>(R(1));
+  return Phase<R>(layout, params).eval({0, 1, 0}, w) * (4 * kPi<R>);
 }
 
 }  // namespace mms::materials

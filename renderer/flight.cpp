@@ -142,8 +142,8 @@ Flights::Need Flights::advance(Flight& f, Crossings& crossings, const PathView& 
         if (f.medium_object != object) return Need::Coefficients;
         if (through_homogeneous(f, to - f.t, path)) return Need::Nothing;
       } else {
-        const float step = -std::log1p(-random(f, path)) / float(volume.majorant);
-        if (f.t + step < to) {
+        const float step = -std::log1p(-random(f, path)) / float(world_.majorants[object]);
+        if (f.t + step < to) {  // never where the medium is empty
           f.t += step;
           return Need::Collision;
         }
@@ -221,9 +221,10 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
         // The shape of emission in a volume is a phase function, 1 for the isotropic one.
         params_.resize(std::max(1, volume.shade_emission.param_count()));
         scripts_.params(d.shade.emission_material, i, params_.data());
-        f.emission *= volume_emission_shape(volume.shade_emission, params_.data(), -f.direction);
+        f.emission *=
+            materials::volume_emission_shape(volume.shade_emission, params_.data(), -f.direction);
       }
-      if (need == Need::Collision) collide(f, volume, paths[f.path]);
+      if (need == Need::Collision) collide(f, paths[f.path]);
     }
     return;
   }
@@ -260,18 +261,22 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
 
 /// A tentative collision of delta tracking (a path) or ratio tracking (a shadow ray): real, or
 /// with the fictitious matter that fills the medium up to its majorant.
-void Flights::collide(Flight& f, const CompiledDescriptor& volume, const PathView& path) {
+void Flights::collide(Flight& f, const PathView& path) {
   ++counters_.media_steps;
+  ++counters_.medium_samples;
+  const float majorant = float(world_.majorants[f.medium_object]);
   f.medium_object = -1;  // valid at this point only
-  const float majorant = float(volume.majorant);
+  bool denser = false;
   Spectrumf scattered, nothing;  // probabilities, per wavelength; what is left is absorbed
   for (int k = 0; k < kWavelengths; ++k) {
     const float extinction = f.scattering[k] + f.absorption[k];
     // Beyond the bound that the author stated, the medium is as dense as the bound.
+    denser |= extinction > majorant * 1.00001f;  // rounding is no news
     const float held = extinction > majorant ? majorant / extinction : 1;
     scattered[k] = f.scattering[k] * held / majorant;
     nothing[k] = std::max(0.0f, 1 - extinction * held / majorant);
   }
+  counters_.denser_samples += denser;
   // As in a homogeneous medium a path decides on scattering alone, and absorption dims it.
   const Spectrumf p_on = Spectrumf(1.0f) - scattered;
   if (f.errand == Errand::Shadow) {

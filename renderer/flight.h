@@ -67,6 +67,7 @@ struct PathView {
 
 struct FlightCounters {
   std::uint64_t rays = 0, shadow_rays = 0, media_steps = 0;
+  std::uint64_t medium_samples = 0, denser_samples = 0;  ///< as in Report
 };
 
 class Flights {
@@ -91,7 +92,7 @@ class Flights {
   bool through_homogeneous(Flight& f, float length, const PathView& path);
   void answer(std::vector<Flight>& flights, const std::vector<PathView>& paths,
               std::span<const Request> requests);
-  void collide(Flight& f, const CompiledDescriptor& volume, const PathView& path);
+  void collide(Flight& f, const PathView& path);
   void cross(Flight& f, const Crossings& crossings, const ScriptPoint& point,
              const Spectrumf& scattering, const Spectrumf& absorption, const PathView& path);
   void add_crossing_emission(const Flight& f, const ScriptPoint& point, const Spectrumf& emitted,

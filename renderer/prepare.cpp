@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/enclosure.h"
 #include "renderer/sampler.h"
 #include "renderer/vertex.h"
 #include "renderer/world.h"
@@ -78,10 +79,11 @@ class Probe {
       : scene_(scene), compiled_(compiled), scripts_(compiled), cluster_(sample_cluster(0.5)) {}
 
   Result<Findings> run() {
-    for (const Volume& v : scene_.volumes)
-      if (const std::optional<Error> e = check_bound(*v.script)) return *e;
     Findings findings;
     for (const Object& o : scene_.objects) {
+      const Result<double> majorant = majorant_of(o);
+      if (!majorant) return majorant.error();
+      findings.majorants.push_back(*majorant);
       findings.radiance.push_back(radiance_of(o));
       if (o.volume >= 0)
         run_all(*scene_.volumes[o.volume].script, EntryKind::Shade, points_of(o, true, cluster_),
@@ -92,13 +94,20 @@ class Probe {
   }
 
  private:
-  std::optional<Error> check_bound(const vm::Descriptor& d) const {
+  Result<double> majorant_of(const Object& o) const {
+    if (o.volume < 0) return 0.0;
+    const vm::Descriptor& d = *scene_.volumes[o.volume].script;
     const CompiledDescriptor& c = compiled_.of(&d);
-    if (c.homogeneous || c.majorant > 0) return {};
+    if (c.homogeneous) return 0.0;
+    if (c.majorant > 0) return c.majorant;
+    const double found = largest_extinction(compiled_.program(), d, o);
+    if (std::isfinite(found)) return found;
     return Error{
         place(compiled_.program(), d.line.source, d.line.line),
-        fmt::format("volume `{}` varies from place to place and states no `bound`", d.name),
-        "add `bound = ...`: the largest scattering + absorption anywhere in it, in 1/m"};
+        fmt::format("volume `{}` varies from place to place, states no `bound`, and none is found",
+                    d.name),
+        "add `bound = ...`: the largest scattering + absorption anywhere in it, in 1/m; "
+        "`mms bounds` shows what is known"};
   }
 
   template <class F>

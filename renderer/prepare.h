@@ -15,10 +15,13 @@ namespace mms::renderer {
 
 struct Findings {
   std::vector<double> radiance;  ///< mean luminance of each object's surface; 0 is no emitter
+  /// Largest extinction of each object's volume where it varies from place to place, 1/m: as
+  /// stated, else as found by enclosure; 0 for other objects.
+  std::vector<double> majorants;
 };
 
 /// Runs the scripts at kProbePoints points. Errors: a script that exceeds its budget; a volume that
-/// varies from place to place without a usable `bound`.
+/// varies from place to place, states no usable `bound`, and has no finite enclosure.
 Result<Findings> probe(const SceneData& scene, const Compiled& compiled);
 
 /// `file:line` of a place in a script.

@@ -150,6 +150,8 @@ class Job {
     report_.emission_runs += s.emission_runs;
     report_.medium_runs += s.medium_runs;
     report_.media_steps += f.media_steps;
+    report_.medium_samples += f.medium_samples;
+    report_.denser_samples += f.denser_samples;
     report_.rays += f.rays;
     report_.shadow_rays += f.shadow_rays;
     for (const auto& [where, lanes] : integrator.scripts().faults()) faults_[where] += lanes;
@@ -224,9 +226,17 @@ Result<Rendered> render(const vm::Program& program, const Scene& scene,
   }
   const Accel accel(data, collected);
   const Lights lights(data, findings->radiance);
-  World world{
-      data, compiled, accel, lights,       CameraRays(data.camera, options.width, options.height),
-      {},   {},       plain, options.seed, options.max_depth};
+  World world{data,
+              compiled,
+              accel,
+              lights,
+              CameraRays(data.camera, options.width, options.height),
+              {},
+              {},
+              plain,
+              options.seed,
+              options.max_depth,
+              std::move(findings->majorants)};
   for (int i = 0; i < int(data.objects.size()); ++i)
     world.sealed.push_back(sealed(data, compiled, i));
   for (int i = 0; i < int(data.objects.size()); ++i)

@@ -97,7 +97,10 @@ struct Report {
   std::uint64_t emission_runs = 0;  ///< of them, runs of `emit` entries
   std::uint64_t medium_runs = 0;    ///< of them, runs of volume descriptors
   std::uint64_t media_steps = 0;    ///< tentative collisions and closed-form flights in media
-  std::uint64_t rays = 0;           ///< camera and scattered rays
+  /// Samples of volumes that vary from place to place, and of them those that were denser than
+  /// their bound: there the volume is taken to be as dense as the bound.
+  std::uint64_t medium_samples = 0, denser_samples = 0;
+  std::uint64_t rays = 0;  ///< camera and scattered rays
   std::uint64_t shadow_rays = 0;
   double batch_fill = 0;  ///< mean lanes of a run over the width of a batch; 0 if no run
 

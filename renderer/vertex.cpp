@@ -6,7 +6,6 @@
 
 #include "base/warp.h"
 #include "materials/emission.h"
-#include "materials/phase.h"
 
 namespace mms::renderer {
 
@@ -62,11 +61,6 @@ Spectrumf fixed_albedo(const FixedSurface& surface, const Object& object, Vec3d 
   const Vec3d p = object.transform.inverse_point(position) / surface.checker_size;
   const bool odd = (std::int64_t(std::floor(p.x)) + std::int64_t(std::floor(p.z))) & 1;
   return cluster.reflectance(odd ? *surface.checker : surface.matte);
-}
-
-Spectrumf volume_emission_shape(const materials::Layout& layout, const float* params, Vec3f to) {
-  if (layout.empty()) return Spectrumf(1.0f);
-  return materials::Phase<float>(layout, params).eval({0, 1, 0}, to) * (4 * kPi<float>);
 }
 
 }  // namespace mms::renderer

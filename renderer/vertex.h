@@ -34,8 +34,4 @@ Spectrumf fixed_emission(const FixedSurface& surface, const SurfacePoint& s, Vec
 Spectrumf fixed_albedo(const FixedSurface& surface, const Object& object, Vec3d position,
                        const Cluster& cluster);
 
-/// The directional shape of emission in a volume: 4 pi times a phase function seen from above (+y),
-/// so that the isotropic one is 1.
-Spectrumf volume_emission_shape(const materials::Layout& layout, const float* params, Vec3f to);
-
 }  // namespace mms::renderer

@@ -47,6 +47,7 @@ struct World {
   bool plain = true;         ///< no volume and nothing semi-transparent: rays end where they hit
   std::uint64_t seed = 0;
   int max_depth = 0;
+  std::vector<double> majorants;  ///< of each object's volume, if it varies: Findings
 
   const Surface& surface_of_object(int object) const {
     return scene.surfaces[scene.objects[object].surface];

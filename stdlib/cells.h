@@ -9,11 +9,14 @@
 
 namespace mms::stdlib::MMS_ISA {
 
-/// Hash of the numbers themselves, as floats in either machine; -0 counts as 0.
+/// The bits of a float for hashing: -0 counts as 0, and every NaN as one (which NaN an operation
+/// gives is the processor's choice).
+MMS_INLINE Bits bits_of(float x) { return x == x ? bits<Bits>(x + 0.0f) : Bits(0x7fc00000u); }
+/// Hash of the numbers themselves, as floats in either machine.
 template <class R, class... Rs>
 MMS_INLINE Bits hash_of(Rs... x) {
   Bits h = kSeed ^ Bits(sizeof...(x));
-  ((h = mix(h, bits<Bits>(float(x) + 0.0f))), ...);
+  ((h = mix(h, bits_of(float(x)))), ...);
   return finish(h);
 }
 /// Hash of the unit cell that holds a point.
@@ -61,11 +64,11 @@ struct Cells4 {
   }
 };
 
-/// The nearest two of the random points, squared distances, and the way from the nearest.
+/// The nearest two of the random points: squared distances, and the ways from them.
 template <class R, int N>
 struct Nearest {
   R first = kInf<R>, second = kInf<R>;
-  R offset[N] = {};
+  R offset[N] = {}, second_offset[N] = {};
   Bits id = 0;
 };
 
@@ -87,7 +90,13 @@ MMS_INLINE void look(const Bits (&cell)[N], const R (&position)[N], Bits h, R (&
     }
     const bool nearer = squared < best.first;
     const R rest = nearer ? best.first : squared;
-    best.second = rest < best.second ? rest : best.second;
+    const bool second = rest < best.second;
+#pragma GCC unroll 4
+    for (int k = 0; k < N; ++k) {
+      const R rest_way = nearer ? best.offset[k] : way[k];
+      best.second_offset[k] = second ? rest_way : best.second_offset[k];
+    }
+    best.second = second ? rest : best.second;
     best.first = nearer ? squared : best.first;
 #pragma GCC unroll 4
     for (int k = 0; k < N; ++k) best.offset[k] = nearer ? way[k] : best.offset[k];
@@ -154,6 +163,22 @@ struct WorleyGradient3 {
     const auto n = nearest<R, 3>({x, y, z});
     const R s = n.first > 0 ? 1 / root(n.first) : R(0);
     return {n.offset[0] * s, n.offset[1] * s, n.offset[2] * s};
+  }
+};
+template <class R>
+struct WorleySecondGradient2 {
+  [[gnu::always_inline]] static std::array<R, 2> eval(R x, R y) {
+    const auto n = nearest<R, 2>({x, y});
+    const R s = 1 / root(n.second);
+    return {n.second_offset[0] * s, n.second_offset[1] * s};
+  }
+};
+template <class R>
+struct WorleySecondGradient3 {
+  [[gnu::always_inline]] static std::array<R, 3> eval(R x, R y, R z) {
+    const auto n = nearest<R, 3>({x, y, z});
+    const R s = 1 / root(n.second);
+    return {n.second_offset[0] * s, n.second_offset[1] * s, n.second_offset[2] * s};
   }
 };
 template <class R>

@@ -38,15 +38,21 @@ MMS_INLINE Complex of_libm(LibmComplex z) { return {__real__ z, __imag__ z}; }
 /// A product in which a zero stays zero whatever the other factor: sin(0) e^inf.
 MMS_INLINE double damped(double zero, double x) { return zero == 0 ? zero : zero * x; }
 
+template <class Reduction = Usual>
 MMS_INLINE SinCos signed_sin_cos(double x) {
-  const SinCos s = sin_cos(x);
+  const SinCos s = sin_cos<Reduction>(x);
   return {x == 0 ? x : s.sin, s.cos};
 }
 
+/// Where the angle is no number: 0 for a real part of -inf, and an infinite real part for inf
+/// (C99).
+template <class Reduction = Usual>
 MMS_INLINE Complex exp_complex(Complex z) {
   const double m = exp_core(z.re);
-  const SinCos a = signed_sin_cos(z.im);
-  return {m * a.cos, damped(a.sin, m)};
+  const SinCos a = signed_sin_cos<Reduction>(z.im);
+  const bool angle = a.cos == a.cos, none = !angle & (z.re == -kInf<double>);
+  const double re = none ? 0.0 : !angle & (z.re == kInf<double>) ? kInf<double> : m * a.cos;
+  return {re, none ? 0.0 : damped(a.sin, m)};
 }
 
 /// log |z| is taken from |z|^2 - 1, of which every term is exact in double where z is float.
@@ -64,7 +70,7 @@ MMS_INLINE Complex log_complex(Complex z) {
 MMS_INLINE Complex sqrt_complex(Complex z) {
   const double x = magnitude(z.re), y = magnitude(z.im);
   const double m = root(0.5 * (x + root(x * x + y * y)));
-  const double n = m > 0 ? 0.5 * y / m : 0.0;
+  const double n = m == 0 ? 0.0 : 0.5 * y / m;  // NaN stays NaN
   const bool right = with_sign(1.0, z.re) > 0;
   const Complex r = {right ? m : n, with_sign(right ? n : m, z.im)};
   // C99: an infinite imaginary part wins over everything, then an infinite real part.
@@ -81,22 +87,25 @@ MMS_INLINE Complex sqrt_complex(Complex z) {
                   : r.im};
 }
 
+template <class Reduction = Usual>
 MMS_INLINE Complex sinh_complex(Complex z) {
   const SinhCosh h = sinh_cosh(z.re);
-  const SinCos a = signed_sin_cos(z.im);
+  const SinCos a = signed_sin_cos<Reduction>(z.im);
   return {h.sinh * a.cos, damped(a.sin, h.cosh)};
 }
+template <class Reduction = Usual>
 MMS_INLINE Complex cosh_complex(Complex z) {
   const SinhCosh h = sinh_cosh(z.re);
-  const SinCos a = signed_sin_cos(z.im);
+  const SinCos a = signed_sin_cos<Reduction>(z.im);
   return {h.cosh * a.cos, a.sin == 0 ? with_sign(0.0, h.sinh) * a.sin : h.sinh * a.sin};
 }
 /// (sinh x cosh x + i sin y cos y) / (sinh^2 x + cos^2 y). Beyond 60 the imaginary part is below
 /// the least float.
+template <class Reduction = Usual>
 MMS_INLINE Complex tanh_complex(Complex z) {
   const double x = z.re > 60 ? 60 : z.re < -60 ? -60 : z.re;
   const SinhCosh h = sinh_cosh(x);
-  const SinCos a = signed_sin_cos(z.im);
+  const SinCos a = signed_sin_cos<Reduction>(z.im);
   const double d = h.sinh * h.sinh + a.cos * a.cos;
   return {h.sinh * h.cosh / d, a.sin * a.cos / d};
 }
@@ -104,10 +113,70 @@ MMS_INLINE Complex tanh_complex(Complex z) {
 /// 0^w is 1 for w = 0, else 0 where Re w > 0 and infinite where Re w < 0; z^0 is 1.
 MMS_INLINE Complex pow_complex(Complex z, Complex w) {
   const bool zero = (z.re == 0) & (z.im == 0), one = (w.re == 0) & (w.im == 0);
-  const Complex l = log_complex({zero ? 1.0 : z.re, zero ? 0.0 : z.im});
-  const Complex r = exp_complex(w * l);
+  const Complex r = exp_complex(w * log_complex(z));
   const double of_zero = w.re > 0 ? 0.0 : w.re < 0 ? kInf<double> : kNan<double>;
   return {one ? 1.0 : zero ? of_zero : r.re, one | zero ? 0.0 : r.im};
+}
+
+/// |x|, or 1e150 for what is larger, infinite or NaN: of the largest, only angles are asked for.
+MMS_INLINE double limited(double x) {
+  const double m = magnitude(x);
+  return m < 1e150 ? m : 1e150;
+}
+/// `r`, but for an argument with an infinite part its imaginary part is infinite (of r's sign), and
+/// for one with a NaN both are NaN.
+MMS_INLINE Complex of_limited(Complex z, Complex r) {
+  const bool infinite = (magnitude(z.re) == kInf<double>) | (magnitude(z.im) == kInf<double>);
+  const bool known = (z.re == z.re) & (z.im == z.im);
+  const double im = infinite ? with_sign(kInf<double>, r.im) : r.im;
+  return {known ? r.re : kNan<double>, known ? im : kNan<double>};
+}
+
+// The inverse functions as Kahan (1987), "Branch cuts for complex elementary functions": sums of
+// products of square roots, of which no two terms ever cancel. They are computed in the first
+// quadrant; the others are its mirror images.
+
+/// Square root of a number whose parts are finite and no NaN, the imaginary one not below 0.
+MMS_INLINE Complex root_in_range(Complex z) {
+  const double x = magnitude(z.re);
+  const double m = root(0.5 * (x + root(x * x + z.im * z.im)));
+  const double n = m > 0 ? 0.5 * z.im / m : 0.0;
+  return {z.re > 0 ? m : n, z.re > 0 ? n : m};
+}
+
+/// The square roots of 1 - z (of which the imaginary part is negated) and 1 + z, for |re z|, |im
+/// z|.
+struct Roots {
+  Complex minus, plus;
+  double height;  ///< |im asin z| = |im acos z|
+};
+MMS_INLINE Roots roots_of(Complex z) {
+  const double x = limited(z.re), y = limited(z.im);
+  const Complex a = root_in_range({1 - x, y}), b = root_in_range({1 + x, y});
+  return {a, b, asinh_core(a.re * b.im + a.im * b.re)};
+}
+MMS_INLINE Complex asin_complex(Complex z) {
+  const Roots r = roots_of(z);
+  const double re = angle_core(limited(z.re), r.minus.re * r.plus.re + r.minus.im * r.plus.im);
+  return of_limited(z, {with_sign(re, z.re), with_sign(r.height, z.im)});
+}
+MMS_INLINE Complex acos_complex(Complex z) {
+  const Roots r = roots_of(z);
+  const bool left = with_sign(1.0, z.re) < 0;
+  const double re = 2 * angle_core(left ? r.plus.re : r.minus.re, left ? r.minus.re : r.plus.re);
+  return of_limited(z, {re, with_sign(r.height, -z.im)});
+}
+/// Real part not below 0: acos turned by a quarter, on the side that the sign of y says.
+MMS_INLINE Complex acosh_complex(Complex z) {
+  const Complex a = acos_complex(z);
+  return {magnitude(a.im), with_sign(a.re, z.im)};
+}
+MMS_INLINE Complex atanh_complex(Complex z) {
+  const double x = limited(z.re), y = limited(z.im);
+  const double re = 0.25 * log1p_positive(4 * x / fused(1 - x, 1 - x, y * y));
+  const double im = 0.5 * angle_core(2 * y, fused(-y, y, (1 - x) * (1 + x)));
+  const bool known = (z.re == z.re) & (z.im == z.im);
+  return {known ? with_sign(re, z.re) : kNan<double>, known ? with_sign(im, z.im) : kNan<double>};
 }
 
 // MMS_COMPLEX(Name, float body, double body): a kernel of one complex number.
@@ -122,19 +191,51 @@ MMS_INLINE Complex pow_complex(Complex z, Complex w) {
         return pair<R>(float_body);                                   \
     }                                                                 \
   };
-MMS_COMPLEX(ComplexExp, exp_complex(z), of_libm(__builtin_cexp(libm(z))))
 MMS_COMPLEX(ComplexLog, log_complex(z), of_libm(__builtin_clog(libm(z))))
 MMS_COMPLEX(ComplexSqrt, sqrt_complex(z), of_libm(__builtin_csqrt(libm(z))))
-MMS_COMPLEX(ComplexSin, turned_right(sinh_complex(turned_left(z))),
-            of_libm(__builtin_csin(libm(z))))
-MMS_COMPLEX(ComplexCos, cosh_complex(turned_left(z)), of_libm(__builtin_ccos(libm(z))))
-MMS_COMPLEX(ComplexTan, turned_right(tanh_complex(turned_left(z))),
-            of_libm(__builtin_ctan(libm(z))))
-MMS_COMPLEX(ComplexSinh, sinh_complex(z), of_libm(__builtin_csinh(libm(z))))
-MMS_COMPLEX(ComplexCosh, cosh_complex(z), of_libm(__builtin_ccosh(libm(z))))
-MMS_COMPLEX(ComplexTanh, tanh_complex(z), of_libm(__builtin_ctanh(libm(z))))
+MMS_COMPLEX(ComplexAsin, asin_complex(z), of_libm(__builtin_casin(libm(z))))
+MMS_COMPLEX(ComplexAcos, acos_complex(z), of_libm(__builtin_cacos(libm(z))))
+MMS_COMPLEX(ComplexAtan, turned_right(atanh_complex(turned_left(z))),
+            of_libm(__builtin_catan(libm(z))))
+MMS_COMPLEX(ComplexAsinh, turned_right(asin_complex(turned_left(z))),
+            of_libm(__builtin_casinh(libm(z))))
+MMS_COMPLEX(ComplexAcosh, acosh_complex(z), of_libm(__builtin_cacosh(libm(z))))
+MMS_COMPLEX(ComplexAtanh, atanh_complex(z), of_libm(__builtin_catanh(libm(z))))
 MMS_COMPLEX(Conj, (Complex{z.re, -z.im}), (Complex{z.re, -z.im}))
 #undef MMS_COMPLEX
+
+// MMS_TURNING(Name, angle, float body over a Reduction, double body): the same, where one part is
+// an angle.
+#define MMS_TURNING(Name, angle, float_body, double_body)                                   \
+  template <class R>                                                                        \
+  struct Name {                                                                             \
+    template <class Reduction>                                                              \
+    [[gnu::always_inline]] static std::array<R, 2> body(R re, R im) {                       \
+      const Complex z = {re, im};                                                           \
+      if constexpr (kDouble<R>)                                                             \
+        return pair<R>(double_body);                                                        \
+      else                                                                                  \
+        return pair<R>(float_body);                                                         \
+    }                                                                                       \
+    [[gnu::always_inline]] static std::array<R, 2> eval(R re, R im) {                       \
+      return body<Usual>(re, im);                                                           \
+    }                                                                                       \
+    [[gnu::always_inline]] static bool rare([[maybe_unused]] R re, [[maybe_unused]] R im) { \
+      return needs_large(angle);                                                            \
+    }                                                                                       \
+    static std::array<R, 2> eval_rare(R re, R im) { return body<Large>(re, im); }           \
+  };
+MMS_TURNING(ComplexExp, im, exp_complex<Reduction>(z), of_libm(__builtin_cexp(libm(z))))
+MMS_TURNING(ComplexSin, re, turned_right(sinh_complex<Reduction>(turned_left(z))),
+            of_libm(__builtin_csin(libm(z))))
+MMS_TURNING(ComplexCos, re, cosh_complex<Reduction>(turned_left(z)),
+            of_libm(__builtin_ccos(libm(z))))
+MMS_TURNING(ComplexTan, re, turned_right(tanh_complex<Reduction>(turned_left(z))),
+            of_libm(__builtin_ctan(libm(z))))
+MMS_TURNING(ComplexSinh, im, sinh_complex<Reduction>(z), of_libm(__builtin_csinh(libm(z))))
+MMS_TURNING(ComplexCosh, im, cosh_complex<Reduction>(z), of_libm(__builtin_ccosh(libm(z))))
+MMS_TURNING(ComplexTanh, im, tanh_complex<Reduction>(z), of_libm(__builtin_ctanh(libm(z))))
+#undef MMS_TURNING
 
 template <class R>
 struct ComplexPow {
@@ -192,11 +293,15 @@ struct Im {
 };
 template <class R>
 struct Polar {
-  [[gnu::always_inline]] static std::array<R, 2> eval(R r, R phi) {
+  template <class Reduction>
+  [[gnu::always_inline]] static std::array<R, 2> body(R r, R phi) {
     if constexpr (kDouble<R>) return {r * __builtin_cos(phi), r * __builtin_sin(phi)};
-    const SinCos a = signed_sin_cos(phi);
+    const SinCos a = signed_sin_cos<Reduction>(phi);
     return {R(r * a.cos), R(r * a.sin)};
   }
+  [[gnu::always_inline]] static std::array<R, 2> eval(R r, R phi) { return body<Usual>(r, phi); }
+  [[gnu::always_inline]] static bool rare(R, R phi) { return needs_large(phi); }
+  static std::array<R, 2> eval_rare(R r, R phi) { return body<Large>(r, phi); }
 };
 
 }  // namespace mms::stdlib::MMS_ISA

@@ -69,7 +69,7 @@ inline constexpr double kLog2E = 0x1.71547652b82fep+0;
 inline constexpr double kHalfPi = 0x1.921fb54442d18p+0, kHalfPiLow = 0x1.1a62633145c07p-54;
 inline constexpr double kPi = 0x1.921fb54442d18p+1;
 
-/// Largest argument of the trigonometric float kernels. Floats there are 2^25 apart.
+/// From here on the trigonometric float kernels reduce their argument lane by lane.
 inline constexpr double kTrigLimit = 0x1p48;
 
 /// x = quarters pi/2 + r, |r| <= pi/4 (and a little).
@@ -89,12 +89,53 @@ MMS_INLINE Reduced reduce(double x) {
   return {r, bits<std::int64_t>(t) & 3};
 }
 
+/// The first 224 binary places of 2 / pi.
+inline constexpr std::uint32_t kTwoOverPi[] = {0xa2f9836e, 0x4e441529, 0xfc2757d1, 0xf534ddc0,
+                                               0xdb629599, 0x3c439041, 0xfe5163ab};
+
+/// The same for a finite float of 2^24 or more (Payne and Hanek 1983): of 2/pi only the 96 places
+/// count that make quarters below 4 and their fraction; what is cut off is below 2^-70.
+inline Reduced reduce_large(float x) {
+  const auto b = bits<std::uint32_t>(x);
+  const std::uint64_t m = (b & 0x007fffffu) | 0x00800000u;
+  const std::uint32_t from = (b >> 23 & 255) - 150 - 2;  // x = m 2^e; places from e - 1 on
+  const std::uint32_t word = from >> 5, shift = from & 31;
+  const auto places = [&](std::uint32_t k) {
+    const std::uint64_t two = std::uint64_t(kTwoOverPi[word + k]) << 32 | kTwoOverPi[word + k + 1];
+    return two << shift >> 32;
+  };
+  const std::uint64_t low = m * places(2), middle = m * places(1) + (low >> 32);
+  const std::uint64_t high = (m * places(0) << 32) + middle;
+  // Two binary digits of quarters, then the fraction, which as a signed number is below 1/2.
+  const std::uint64_t fraction = high << 2 | (low & 0xffffffffu) >> 30;
+  const std::uint64_t quarters = (high >> 62) + (fraction >> 63);
+  const double r = double(std::int64_t(fraction)) * 0x1p-64 * kHalfPi;
+  const bool negative = b >> 31;
+  return {negative ? -r : r, std::int64_t(negative ? 0 - quarters : quarters) & 3};
+}
+
+MMS_INLINE bool needs_large(float x) {
+  return (magnitude(x) >= float(kTrigLimit)) & (magnitude(x) < kInf<float>);
+}
+MMS_INLINE bool needs_large(double) { return false; }  // libm's functions take them all
+
+/// How an angle is reduced: the body for all lanes, or that for large ones.
+struct Usual {
+  MMS_INLINE static Reduced reduced(double x) { return reduce(x); }
+};
+struct Large {
+  static Reduced reduced(double x) {
+    return needs_large(float(x)) ? reduce_large(float(x)) : reduce(x);
+  }
+};
+
 struct SinCos {
   double sin, cos;
 };
 /// Relative error below 1e-15 (polynomials: 7e-18, 2e-18) but for the reduction's.
+template <class Reduction = Usual>
 MMS_INLINE SinCos sin_cos(double x) {
-  const Reduced a = reduce(x);
+  const Reduced a = Reduction::reduced(x);
   const double t = a.r * a.r;
   const double sine =
       fused(a.r * t,
@@ -115,9 +156,9 @@ MMS_INLINE SinCos sin_cos(double x) {
 
 /// Sine of x + quarter pi/2 in float: reduction in double, polynomials (3.4e-9, 7e-10) in float.
 /// Where quarter is 0, the sign of x is set aside, for the polynomials lose that of -0.
-template <std::int32_t quarter>
+template <std::int32_t quarter, class Reduction = Usual>
 MMS_INLINE float sine_float(float x) {
-  const Reduced a = reduce(quarter ? x : magnitude(x));
+  const Reduced a = Reduction::reduced(quarter ? x : magnitude(x));
   const float r = float(a.r), t = r * r;
   const float sine = fused(
       r * t, polynomial(t, -0x1.555556p-3f, 0x1.11110ep-7f, -0x1.a013a8p-13f, 0x1.6dbdeep-19f), r);
@@ -194,8 +235,22 @@ MMS_INLINE double log1p_core(double x) {
   return (u > 0) & (u < kInf<double>) ? r : log_core(u);
 }
 
-/// Angle of (x, y) in [-pi, pi]; signs of zero and infinities as C99 atan2.
-MMS_INLINE double atan2_core(double y, double x) {
+/// log(1 + x) for x not below 0, or NaN; the same bits as log1p_core, with less to choose.
+MMS_INLINE double log1p_positive(double x) {
+  const double u = 1 + x;
+  const double r = log_in_range(u) + (x - (u - 1)) / u;
+  return u < kInf<double> ? r : x;
+}
+
+/// Inverse hyperbolic sine.
+MMS_INLINE double asinh_core(double x) {
+  const double a = magnitude(x);
+  const double r = log1p_positive(a + a * (a / (1 + root(fused(a, a, 1.0)))));
+  return with_sign(a < kInf<double> ? r : a, x);
+}
+
+/// Angle of (x, y) in [-pi, pi]; signs of zero and infinities as C99 atan2. \pre no NaN
+MMS_INLINE double angle_core(double y, double x) {
   const double ax0 = magnitude(x), ay0 = magnitude(y);
   const double ax = ax0 < 1e300 ? ax0 : 1e300, ay = ay0 < 1e300 ? ay0 : 1e300;
   const double large0 = ay > ax ? ay : ax, small = ay > ax ? ax : ay;
@@ -214,8 +269,10 @@ MMS_INLINE double atan2_core(double y, double x) {
             q) +
       (turned ? kPi / 4 : 0.0);
   const double half = ay > ax ? kHalfPi - angle : angle;
-  const double whole = with_sign(1.0, x) < 0 ? kPi - half : half;
-  return (x == x) & (y == y) ? with_sign(whole, y) : x + y;
+  return with_sign(with_sign(1.0, x) < 0 ? kPi - half : half, y);
+}
+MMS_INLINE double atan2_core(double y, double x) {
+  return (x == x) & (y == y) ? angle_core(y, x) : x + y;
 }
 
 /// sinh and cosh of a float.

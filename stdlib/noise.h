@@ -209,4 +209,101 @@ struct PerlinGradient4 {
   }
 };
 
+/// Derivative of that order of the weight of the upper side, t^3 (6 t^2 - 15 t + 10).
+template <class R>
+MMS_INLINE R weight_derivative(R t, std::int32_t order) {
+  const R d0 = t * t * t * fused(t, fused(t, R(6), R(-15)), R(10));
+  const R d1 = 30 * (t * t) * fused(t, t - 2, R(1));
+  const R d2 = 60 * t * fused(t, fused(t, R(2), R(-3)), R(1));
+  const R d3 = fused(t, fused(t, R(360), R(-360)), R(60));
+  const R d4 = fused(t, R(720), R(-360));
+  const R low = order <= 0 ? d0 : order == 1 ? d1 : order == 2 ? d2 : d3;
+  const R high = order == 4 ? d4 : order == 5 ? R(720) : R(0);
+  return order < 4 ? low : high;
+}
+
+/// One axis of a mixed derivative: for the lower and the upper side, the weight's derivative of the
+/// axis' order n, and n times that of order n - 1 (which Leibniz' rule wants for a linear factor).
+template <class R>
+struct AxisWeights {
+  R same[2], less[2];
+};
+template <class R>
+MMS_INLINE AxisWeights<R> axis_weights(R t, std::int32_t order) {
+  const std::int32_t n = order > 0 ? order : 0;
+  const R upper = weight_derivative(t, n), below = weight_derivative(t, n - 1) * R(n);
+  return {{(n == 0 ? R(1) : R(0)) - upper, upper}, {(n == 1 ? R(1) : R(0)) - below, below}};
+}
+
+/// Sums the corners over axes K .. N-1. `all`: the product of the weights so far; `one[k]`: the
+/// same with axis k taken at one order less.
+template <int K, class R, int N>
+MMS_INLINE R mixed(const Cell<R, N>& cell, const AxisWeights<R> (&w)[N], Bits h, R (&d)[N], R all,
+                   const R (&one)[N]) {
+  if constexpr (K == N) {
+    R g[N], dot = 0, r = 0;
+    corner_vector(finish(h), g);
+#pragma GCC unroll 4
+    for (int k = 0; k < N; ++k) {
+      dot = fused(g[k], d[k], dot);
+      r = fused(g[k], one[k], r);
+    }
+    return fused(dot, all, r);
+  } else {
+    R sides[2];
+#pragma GCC unroll 2
+    for (int side = 0; side < 2; ++side) {
+      R next[N];
+#pragma GCC unroll 4
+      for (int k = 0; k < N; ++k)
+        next[k] = k == K ? all * w[K].less[side] : one[k] * w[K].same[side];
+      d[K] = cell.offset[K] - R(side);
+      sides[side] =
+          mixed<K + 1>(cell, w, mix(h, cell.near[K] + Bits(side)), d, all * w[K].same[side], next);
+    }
+    return sides[0] + sides[1];
+  }
+}
+
+/// The derivative of `perlin` of order[k] along each axis k.
+template <class R, int N>
+MMS_INLINE R perlin_mixed(const R (&p)[N], const std::int32_t (&order)[N]) {
+  Cell<R, N> cell;
+  AxisWeights<R> w[N];
+  R d[N], one[N];
+#pragma GCC unroll 4
+  for (int k = 0; k < N; ++k) {
+    const R f = floor_of(p[k]);
+    cell.near[k] = lattice(f);
+    cell.offset[k] = p[k] - f;
+    w[k] = axis_weights(cell.offset[k], order[k]);
+    one[k] = 0;
+  }
+  return mixed<0>(cell, w, kSeed, d, R(1), one) * kPerlinScale<R, N>;
+}
+template <class R>
+struct PerlinDerivative1 {
+  [[gnu::always_inline]] static R eval(R x, std::int32_t i) { return perlin_mixed<R, 1>({x}, {i}); }
+};
+template <class R>
+struct PerlinDerivative2 {
+  [[gnu::always_inline]] static R eval(R x, R y, std::int32_t i, std::int32_t j) {
+    return perlin_mixed<R, 2>({x, y}, {i, j});
+  }
+};
+template <class R>
+struct PerlinDerivative3 {
+  [[gnu::always_inline]] static R eval(R x, R y, R z, std::int32_t i, std::int32_t j,
+                                       std::int32_t k) {
+    return perlin_mixed<R, 3>({x, y, z}, {i, j, k});
+  }
+};
+template <class R>
+struct PerlinDerivative4 {
+  [[gnu::always_inline]] static R eval(R x, R y, R z, R t, std::int32_t i, std::int32_t j,
+                                       std::int32_t k, std::int32_t l) {
+    return perlin_mixed<R, 4>({x, y, z, t}, {i, j, k, l});
+  }
+};
+
 }  // namespace mms::stdlib::MMS_ISA

@@ -5,6 +5,7 @@
 /// \file
 /// The rows of noise.
 
+#include "stdlib/bounds.h"
 #include "stdlib/noise.h"
 #include "vm/builtin.h"
 
@@ -17,52 +18,118 @@ inline constexpr vm::Builtin kNoiseRows[] = {
                                  "continuous), 0 at every lattice point, in [-1, 1].",
                           .example = "perlin(0.3)",
                           .derivative = "perlin_gradient(x)",
-                          .cost = 15}),
-    vm::builtin<PerlinGradient1>({.signature = "real perlin_gradient(real x)",
-                                  .module = "noise",
-                                  .doc = "Exact derivative of `perlin`.",
-                                  .example = "perlin_gradient(0.3)",
-                                  .derivative = "",
-                                  .cost = 15}),
+                          .cost = 15,
+                          .bounds = {vm::BoundsForm::Lipschitz, bounds::perlin1, -1, 1}}),
+    vm::builtin<PerlinGradient1>(
+        {.signature = "real perlin_gradient(real x)",
+         .module = "noise",
+         .doc = "Exact derivative of `perlin`.",
+         .example = "perlin_gradient(0.3)",
+         .derivative = "perlin_derivative(x, 2)",
+         .cost = 15,
+         .bounds = {vm::BoundsForm::Parts, bounds::perlin_gradient1, -10, 10}}),
     vm::builtin<Perlin2>({.signature = "real perlin(real[2] p)",
                           .module = "noise",
                           .doc = "Gradient noise in 2 dimensions: smooth (its second derivative is "
                                  "continuous), 0 at every lattice point, in [-1, 1].",
                           .example = "perlin([0.3, 0.7])",
                           .derivative = "perlin_gradient(p)",
-                          .cost = 40}),
-    vm::builtin<PerlinGradient2>({.signature = "real[2] perlin_gradient(real[2] p)",
-                                  .module = "noise",
-                                  .doc = "Exact gradient of `perlin`.",
-                                  .example = "perlin_gradient([0.3, 0.7])",
-                                  .derivative = "",
-                                  .cost = 50}),
+                          .cost = 40,
+                          .bounds = {vm::BoundsForm::Lipschitz, bounds::perlin2, -1, 1}}),
+    vm::builtin<PerlinGradient2>(
+        {.signature = "real[2] perlin_gradient(real[2] p)",
+         .module = "noise",
+         .doc = "Exact gradient of `perlin`.",
+         .example = "perlin_gradient([0.3, 0.7])",
+         .derivative = "[[perlin_derivative(p, 2, 0), perlin_derivative(p, 1, 1)], "
+                       "[perlin_derivative(p, 1, 1), perlin_derivative(p, 0, 2)]]",
+         .cost = 50,
+         .bounds = {vm::BoundsForm::Parts, bounds::perlin_gradient2, -10, 10}}),
     vm::builtin<Perlin3>({.signature = "real perlin(real[3] p)",
                           .module = "noise",
                           .doc = "Gradient noise in 3 dimensions: smooth (its second derivative is "
                                  "continuous), 0 at every lattice point, in [-1, 1].",
                           .example = "perlin([0.3, 0.7, 1.9])",
                           .derivative = "perlin_gradient(p)",
-                          .cost = 110}),
-    vm::builtin<PerlinGradient3>({.signature = "real[3] perlin_gradient(real[3] p)",
-                                  .module = "noise",
-                                  .doc = "Exact gradient of `perlin`.",
-                                  .example = "perlin_gradient([0.3, 0.7, 1.9])",
-                                  .derivative = "",
-                                  .cost = 130}),
+                          .cost = 110,
+                          .bounds = {vm::BoundsForm::Lipschitz, bounds::perlin3, -1, 1}}),
+    vm::builtin<PerlinGradient3>(
+        {.signature = "real[3] perlin_gradient(real[3] p)",
+         .module = "noise",
+         .doc = "Exact gradient of `perlin`.",
+         .example = "perlin_gradient([0.3, 0.7, 1.9])",
+         .derivative = "[[perlin_derivative(p, 2, 0, 0), perlin_derivative(p, 1, 1, 0), "
+                       "perlin_derivative(p, 1, 0, 1)], [perlin_derivative(p, 1, 1, 0), "
+                       "perlin_derivative(p, 0, 2, 0), perlin_derivative(p, 0, 1, 1)], "
+                       "[perlin_derivative(p, 1, 0, 1), perlin_derivative(p, 0, 1, 1), "
+                       "perlin_derivative(p, 0, 0, 2)]]",
+         .cost = 130,
+         .bounds = {vm::BoundsForm::Parts, bounds::perlin_gradient3, -10, 10}}),
     vm::builtin<Perlin4>({.signature = "real perlin(real[4] p)",
                           .module = "noise",
                           .doc = "Gradient noise in 4 dimensions: smooth (its second derivative is "
                                  "continuous), 0 at every lattice point, in [-1, 1].",
                           .example = "perlin([0.3, 0.7, 1.9, 2.2])",
                           .derivative = "perlin_gradient(p)",
-                          .cost = 250}),
-    vm::builtin<PerlinGradient4>({.signature = "real[4] perlin_gradient(real[4] p)",
-                                  .module = "noise",
-                                  .doc = "Exact gradient of `perlin`.",
-                                  .example = "perlin_gradient([0.3, 0.7, 1.9, 2.2])",
-                                  .derivative = "",
-                                  .cost = 330}),
+                          .cost = 250,
+                          .bounds = {vm::BoundsForm::Lipschitz, bounds::perlin4, -1, 1}}),
+    vm::builtin<PerlinGradient4>(
+        {.signature = "real[4] perlin_gradient(real[4] p)",
+         .module = "noise",
+         .doc = "Exact gradient of `perlin`.",
+         .example = "perlin_gradient([0.3, 0.7, 1.9, 2.2])",
+         .derivative = "[[perlin_derivative(p, 2, 0, 0, 0), perlin_derivative(p, 1, 1, 0, 0), "
+                       "perlin_derivative(p, 1, 0, 1, 0), perlin_derivative(p, 1, 0, 0, 1)], "
+                       "[perlin_derivative(p, 1, 1, 0, 0), perlin_derivative(p, 0, 2, 0, 0), "
+                       "perlin_derivative(p, 0, 1, 1, 0), perlin_derivative(p, 0, 1, 0, 1)], "
+                       "[perlin_derivative(p, 1, 0, 1, 0), perlin_derivative(p, 0, 1, 1, 0), "
+                       "perlin_derivative(p, 0, 0, 2, 0), perlin_derivative(p, 0, 0, 1, 1)], "
+                       "[perlin_derivative(p, 1, 0, 0, 1), perlin_derivative(p, 0, 1, 0, 1), "
+                       "perlin_derivative(p, 0, 0, 1, 1), perlin_derivative(p, 0, 0, 0, 2)]]",
+         .cost = 330,
+         .bounds = {vm::BoundsForm::Parts, bounds::perlin_gradient4, -10, 10}}),
+    vm::builtin<PerlinDerivative1>(
+        {.signature = "real perlin_derivative(real x, integer n)",
+         .module = "noise",
+         .doc = "Derivative of order n of `perlin`; a negative order counts as 0.",
+         .example = "perlin_derivative(0.3, 2)",
+         .derivative = "perlin_derivative(x, max(n, 0) + 1); 0",
+         .cost = 25,
+         .bounds = {vm::BoundsForm::Range, bounds::perlin_derivative1}}),
+    vm::builtin<PerlinDerivative2>(
+        {.signature = "real perlin_derivative(real[2] p, integer i, j)",
+         .module = "noise",
+         .doc = "Mixed derivative of `perlin`: i and j times along the axes in turn; a "
+                "negative order counts as 0.",
+         .example = "perlin_derivative([0.3, 0.7], 2, 0)",
+         .derivative = "[perlin_derivative(p, max(i, 0) + 1, j), perlin_derivative(p, i, max(j, 0) "
+                       "+ 1)]; 0; 0",
+         .cost = 70,
+         .bounds = {vm::BoundsForm::Range, bounds::perlin_derivative2}}),
+    vm::builtin<PerlinDerivative3>(
+        {.signature = "real perlin_derivative(real[3] p, integer i, j, k)",
+         .module = "noise",
+         .doc = "Mixed derivative of `perlin`: i, j and k times along the axes in "
+                "turn; a negative order counts as 0.",
+         .example = "perlin_derivative([0.3, 0.7, 1.9], 2, 0, 0)",
+         .derivative =
+             "[perlin_derivative(p, max(i, 0) + 1, j, k), perlin_derivative(p, i, max(j, 0) + 1, "
+             "k), perlin_derivative(p, i, j, max(k, 0) + 1)]; 0; 0; 0",
+         .cost = 200,
+         .bounds = {vm::BoundsForm::Range, bounds::perlin_derivative3}}),
+    vm::builtin<PerlinDerivative4>(
+        {.signature = "real perlin_derivative(real[4] p, integer i, j, k, l)",
+         .module = "noise",
+         .doc = "Mixed derivative of `perlin`: i, j, k and l times along the axes in "
+                "turn; a negative order counts as 0.",
+         .example = "perlin_derivative([0.3, 0.7, 1.9, 2.2], 2, 0, 0, 0)",
+         .derivative =
+             "[perlin_derivative(p, max(i, 0) + 1, j, k, l), perlin_derivative(p, i, max(j, 0) + "
+             "1, "
+             "k, l), perlin_derivative(p, i, j, max(k, 0) + 1, l), perlin_derivative(p, i, "
+             "j, k, max(l, 0) + 1)]; 0; 0; 0; 0",
+         .cost = 600,
+         .bounds = {vm::BoundsForm::Range, bounds::perlin_derivative4}}),
 };
 
 }  // namespace mms::stdlib::MMS_ISA

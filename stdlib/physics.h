@@ -102,6 +102,25 @@ MMS_INLINE double relative_power(const double* table, double wavelength) {
   const double u = t - i;
   return (table[i] * (1 - u) + table[i + 1] * u) * 0.01;
 }
+/// Its slope, per metre; 0 where the ends are held.
+MMS_INLINE double relative_power_slope(const double* table, double wavelength) {
+  const double t = (wavelength * 1e9 - 300) * 0.2;
+  const bool inside = (t >= 0) & (t < 106);
+  const auto i = std::int32_t(inside ? t : 0.0);
+  return inside ? (table[i + 1] - table[i]) * 0.01 * 0.2e9 : t != t ? t : 0.0;
+}
+template <class R>
+struct IlluminantD65Slope {
+  [[gnu::always_inline]] static R eval(R wavelength) {
+    return R(relative_power_slope(kD65, wavelength));
+  }
+};
+template <class R>
+struct IlluminantASlope {
+  [[gnu::always_inline]] static R eval(R wavelength) {
+    return R(relative_power_slope(kIlluminantA, wavelength));
+  }
+};
 template <class R>
 struct IlluminantD65 {
   [[gnu::always_inline]] static R eval(R wavelength) { return R(relative_power(kD65, wavelength)); }
@@ -133,23 +152,35 @@ MMS_INLINE double metal_index(const MetalRow (&table)[N], double wavelength, boo
   const double u = u0 > 0 ? (u0 < 1 ? u0 : 1.0) : 0.0;
   return imaginary ? a.k + u * (b.k - a.k) : a.n + u * (b.n - a.n);
 }
-#define MMS_METAL(Name, table)                           \
+/// Its slope, per metre; 0 where the ends are held.
+template <std::size_t N>
+MMS_INLINE double metal_slope(const MetalRow (&table)[N], double wavelength, bool imaginary) {
+  constexpr std::int32_t last = std::int32_t(N) - 2;
+  const double nm = wavelength * 1e9;
+  const double t = (4.15 - 1239.8417 / nm) * 20;
+  const auto i = std::int32_t(t > 0 ? (t < last ? t : double(last)) : 0.0);
+  const MetalRow &a = table[i], &b = table[i + 1];
+  const double rise = imaginary ? b.k - a.k : b.n - a.n;
+  const bool inside = (nm >= a.lambda_nm) & (nm < b.lambda_nm);
+  return inside ? rise / (b.lambda_nm - a.lambda_nm) * 1e9 : nm != nm ? nm : 0.0;
+}
+#define MMS_METAL_PART(Name, function, table, imaginary) \
   template <class R>                                     \
-  struct Name##N {                                       \
+  struct Name {                                          \
     [[gnu::always_inline]] static R eval(R wavelength) { \
-      return R(metal_index(table, wavelength, false));   \
-    }                                                    \
-  };                                                     \
-  template <class R>                                     \
-  struct Name##K {                                       \
-    [[gnu::always_inline]] static R eval(R wavelength) { \
-      return R(metal_index(table, wavelength, true));    \
+      return R(function(table, wavelength, imaginary));  \
     }                                                    \
   };
+#define MMS_METAL(Name, table)                            \
+  MMS_METAL_PART(Name##N, metal_index, table, false)      \
+  MMS_METAL_PART(Name##K, metal_index, table, true)       \
+  MMS_METAL_PART(Name##NSlope, metal_slope, table, false) \
+  MMS_METAL_PART(Name##KSlope, metal_slope, table, true)
 MMS_METAL(Silver, k_silver)
 MMS_METAL(Gold, k_gold)
 MMS_METAL(Copper, k_copper)
 MMS_METAL(Aluminium, k_aluminium)
 #undef MMS_METAL
+#undef MMS_METAL_PART
 
 }  // namespace mms::stdlib::MMS_ISA

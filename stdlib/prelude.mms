@@ -122,11 +122,6 @@ end;
 /// 2
 real mod(real a, b) = a % b;
 
-/// a - b trunc(a / b): has the sign of a.
-/// >>> fmod(-1.0, 3.0)
-/// -1
-real fmod(real a, b) = a - b * trunc(a / b);
-
 /// How wide the pixel is, measured in `x`: the change of x across `$footprint`, exactly; at most
 /// 1e6. Hand it as `width` to what can be filtered. Differentiation takes it for constant.
 /// >>> filter_width($time)

@@ -12,8 +12,11 @@ Verb check_verb();
 Verb render_verb();
 Verb info_verb();
 Verb eval_verb();
+Verb bounds_verb();
 Verb disasm_verb();
 Verb compile_verb();
+Verb accuracy_verb();
+Verb profile_verb();
 Verb explain_verb();
 Verb doc_verb();
 Verb completion_verb();
@@ -21,8 +24,8 @@ Verb fmt_verb();
 Verb test_verb();
 
 /// In the order of `mms --help`.
-inline constexpr Verb (*kVerbs[])() = {check_verb,   render_verb,  info_verb,      eval_verb,
-                                       disasm_verb,  compile_verb, fmt_verb,       test_verb,
-                                       explain_verb, doc_verb,     completion_verb};
+inline constexpr Verb (*kVerbs[])() = {
+    check_verb,    render_verb,  info_verb, eval_verb, bounds_verb,  disasm_verb, compile_verb,
+    accuracy_verb, profile_verb, fmt_verb,  test_verb, explain_verb, doc_verb,    completion_verb};
 
 }  // namespace mms::tools

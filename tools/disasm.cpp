@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// mms disasm: the bytecode of a script, as text.
+// mms disasm: the bytecode of a script, and the code that runs, as text.
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -7,8 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "api/excerpts.h"
 #include "tools/commands.h"
 #include "tools/script.h"
+#include "vm/listing.h"
 #include "vm/verify.h"
 
 namespace mms::tools {
@@ -26,7 +28,11 @@ Exit disasm(const ScriptOptions& options) {
   const auto linked = compile_files(options.files, options, exit);
   if (!linked) return exit;
   if (options.dump_after.empty()) {
-    fmt::print("{}", vm::disassemble(linked->program));
+    const vm::Program& program = linked->program;
+    api::Excerpts excerpts(program);
+    const auto text_of = [&](vm::SourceLine line) { return excerpts.line(line); };
+    fmt::print("{}{}", vm::disassemble(program),
+               vm::disassemble(program, vm::lower(program), text_of));
     return exit;
   }
   for (const lang::PassInfo& pass : lang::passes())
@@ -46,7 +52,7 @@ Exit disasm(const ScriptOptions& options) {
 Verb disasm_verb() {
   auto options = std::make_shared<ScriptOptions>();
   Verb verb{"disasm",
-            "Print the bytecode that a script is linked to",
+            "Print a script's bytecode, and the code it is lowered to beside its source",
             "Examples:\n  mms disasm marble.mms\n  mms disasm -O0 marble.mms\n  mms disasm "
             "--dump-after=fold marble.mms",
             {},

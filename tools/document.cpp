@@ -45,11 +45,30 @@ std::string_view or_dash(std::string_view text) { return text.empty() ? "-" : te
 
 std::string accuracy(const vm::Builtin& row) {
   if (row.max_ulp == 0) return "";
-  return fmt::format(" Within {:g} ulp in float.", row.max_ulp);
+  return fmt::format(" Within {:g} ulp in float{}{}.", row.max_ulp, row.domain.empty() ? "" : ": ",
+                     row.domain);
+}
+
+/// How close its enclosure is; docs/bounds.md says what the words mean.
+std::string_view enclosed(const vm::Builtin& row) {
+  switch (row.bounds.form) {
+    case vm::BoundsForm::None:
+      break;
+    case vm::BoundsForm::Range:
+      return " Bounds: range.";
+    case vm::BoundsForm::Lipschitz:
+      return " Bounds: Lipschitz.";
+    case vm::BoundsForm::Parts:
+      return " Bounds: parts.";
+    case vm::BoundsForm::Exact:
+      return " Bounds: exact.";
+  }
+  return "";
 }
 
 std::string entry(const vm::Builtin& row) {
-  std::string text = fmt::format("`{}`\n\n{}{}\n", row.signature, row.doc, accuracy(row));
+  std::string text =
+      fmt::format("`{}`\n\n{}{}{}\n", row.signature, row.doc, accuracy(row), enclosed(row));
   if (!row.example.empty()) text += fmt::format("\n```\n{}\n```\n", row.example);
   return text + "\n";
 }
@@ -132,15 +151,16 @@ std::string bytecode_document() {
       "values on the stack, the bottom first: `r` real, `i` integer, `l` logic, `s` spectrum; `?` "
       "where the operand decides. In the meaning, `a`, `b`, `c` are what is popped, or the "
       "operands. Cost is in units of one real addition.\n\n"
-      "| Instruction | Operand | Pops | Pushes | Cost | Meaning |\n|---|---|---|---|---|---|\n",
+      "| Instruction | Operand | Pops | Pushes | Cost | Meaning | Derivative |\n"
+      "|---|---|---|---|---|---|---|\n",
       kMade);
   constexpr std::string_view kOperands[] = {"-",          "constant", "input",   "local",
                                             "block type", "function", "builtin", "wavelength"};
   static_assert(std::size(kOperands) == static_cast<std::size_t>(vm::OperandForm::Wavelength) + 1);
   for (const vm::OpInfo& row : vm::kOps)
-    text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.name,
+    text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", row.name,
                         kOperands[static_cast<std::size_t>(row.operand)], or_dash(row.pops),
-                        or_dash(row.pushes), row.cost, cell(row.doc));
+                        or_dash(row.pushes), row.cost, cell(row.doc), or_dash(row.derivative));
   text += fmt::format(
       "\n## Limits\n\nA lane may take {} back edges and recursive calls in one run, and have {} "
       "calls open at a time; calls in tail position do not count. A material holds at most {} "

@@ -7,8 +7,11 @@
 
 #include <fmt/format.h>
 
+#include "api/accuracy.h"
+#include "api/excerpts.h"
 #include "tools/commands.h"
 #include "tools/evaluate.h"
+#include "vm/trace.h"
 
 namespace mms::tools {
 
@@ -19,21 +22,60 @@ constexpr const char* kName = "eval_result";
 struct EvalOptions : ScriptOptions {
   std::string item;
   std::string precision = "float";
+  bool trace = false;
 };
+
+std::string value_text(const vm::TracedValue& v, bool single) {
+  const auto number = [&](double x) -> std::string {
+    if (x != x) return "nan";
+    return single ? fmt::format("{}", static_cast<float>(x)) : fmt::format("{}", x);
+  };
+  if (v.type == vm::SlotType::Real) return number(v.real[0]);
+  if (v.type == vm::SlotType::Integer) return fmt::format("{}", v.integer);
+  if (v.type == vm::SlotType::Logic) return v.integer ? "true" : "false";
+  std::vector<std::string> parts;
+  for (const double x : v.real) parts.push_back(number(x));
+  return fmt::format("spectrum({})", fmt::join(parts, ", "));
+}
+
+/// One line for each value: where, what the source says there, the value.
+template <class R>
+void print_trace(const vm::Program& program, std::uint32_t function, vm::InputBatch<R>& in,
+                 api::Excerpts& excerpts) {
+  const vm::Trace trace = vm::trace(program, function, in, 0);
+  constexpr bool single = sizeof(R) == sizeof(float);
+  for (const vm::TraceStep& s : trace.steps) {
+    const vm::Op op = program.functions[s.function].code[s.instruction].op;
+    fmt::print("{:<20} {:<12} {:<44} {}{}\n", api::place(program, s.line), vm::info(op).name,
+               excerpts.from_column(s.line),
+               std::string(2 * static_cast<std::size_t>(s.depth), ' '),
+               value_text(s.value, single));
+  }
+  if (trace.step_count > trace.steps.size())
+    fmt::print("... and {} more\n", trace.step_count - trace.steps.size());
+  for (const vm::TracedValue& v : trace.results)
+    if (v.origin >= 0) {
+      const vm::SourceLine at = trace.origins[static_cast<std::size_t>(v.origin)].line;
+      fmt::print("{} was first made at {}: {}\n", value_text(v, single), api::place(program, at),
+                 excerpts.line(at));
+    }
+}
 
 /// Prints `expression`, or every value that the scripts export where it is empty.
 template <class R>
 Exit print_values(const Compiled& compiled, const EvalOptions& options,
-                  const std::string& expression) {
+                  const std::string& expression, const std::vector<lang::SourcePtr>& sources) {
   Exit exit = Exit::Ok;
   auto in = point<R>(compiled, options, exit);
   if (!in) return exit;
+  api::Excerpts excerpts(compiled.program, sources);
   bool printed = expression.empty();
   for (const vm::Export& e : compiled.program.exports) {
     if (!expression.empty() && e.name != kName) continue;
     const auto value = evaluate(compiled.program, e, *in);
     if (!value) return fail(Exit::Budget, value.error(), options);
     printed = true;
+    if (options.trace) print_trace(compiled.program, e.function, *in, excerpts);
     if (expression.empty()) fmt::print("{} = ", e.name);
     fmt::print("{}\n", value->text);
   }
@@ -60,8 +102,9 @@ Exit eval(const EvalOptions& options) {
         lang::make_source("<expression>", fmt::format("const {} = {};\n", kName, expression)));
   const auto compiled = compile(*sources, options, exit);
   if (!compiled) return exit;
-  return options.precision == "double" ? print_values<double>(*compiled, options, expression)
-                                       : print_values<float>(*compiled, options, expression);
+  return options.precision == "double"
+             ? print_values<double>(*compiled, options, expression, *sources)
+             : print_values<float>(*compiled, options, expression, *sources);
 }
 
 }  // namespace
@@ -76,6 +119,7 @@ Verb eval_verb() {
       "from above.\n\nExamples:\n"
       "  mms eval '2^0.5'\n  mms eval --set position=[1,2,3] 'perlin($position)'\n"
       "  mms eval --set wavelength=550nm 'bk7()'\n  mms eval -- '-1 % 3'\n"
+      "  mms eval --trace -O0 --set position=[0,0,0] 'sqrt($position.x) / $position.y'\n"
       "  mms eval -f marble.mms --set scale=2 'ridged($object_position, 6, 0.5, 0.0)'",
       {},
       [options] { return eval(*options); }};
@@ -91,6 +135,7 @@ Verb eval_verb() {
             "TYPE",
             "float, as in pictures, or double",
             {"float", "double"}});
+  verb.add({"--trace", &options->trace, "", "Print every value on the way, with its source"});
   add_script_options(verb, *options);
   return verb;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // mms info: what a linked program knows about itself.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "api/bounds.h"
 #include "api/outputs.h"
 #include "materials/table.h"
 #include "tools/commands.h"
@@ -34,15 +36,6 @@ constexpr std::pair<materials::Trait, const char*> kTraitNames[] = {
     {materials::Specular, "specular"},     {materials::Polished, "polished"},
     {materials::Dispersive, "dispersive"}, {materials::Combiner, "combiner"},
     {materials::PhaseFunction, "phase"}};
-
-struct NamedEntry {
-  const char* name;
-  const vm::Entry vm::Descriptor::*entry;
-};
-constexpr NamedEntry kEntries[] = {{"shade", &vm::Descriptor::shade},
-                                   {"pass", &vm::Descriptor::pass},
-                                   {"emit", &vm::Descriptor::emit},
-                                   {"displace", &vm::Descriptor::displace}};
 
 constexpr const char* kRates[] = {"constant", "uniform", "varying"};
 
@@ -96,7 +89,7 @@ Json lobes(const vm::Descriptor& d, vm::Output output) {
   return all;
 }
 
-Json output_json(const vm::Descriptor& d, vm::Output output) {
+Json output_json(const vm::Program& program, const vm::Descriptor& d, vm::Output output) {
   const vm::OutputInfo& info = d.output(output);
   Json json{{"stated", info.stated},
             {"rate", kRates[static_cast<int>(vm::rate(info))]},
@@ -106,6 +99,9 @@ Json output_json(const vm::Descriptor& d, vm::Output output) {
     json["material"] = text;
     json["reciprocal"] = vm::reciprocal(info);
     json["lobes"] = lobes(d, output);
+    if (output == vm::Output::Material)
+      if (const double most = api::largest_weight(program, d); std::isfinite(most))
+        json["largest_weight"] = most;
   }
   return json;
 }
@@ -133,9 +129,10 @@ Json to_json(const vm::Program& program, const vm::Descriptor& d,
   for (int i = 0; i < static_cast<int>(vm::Output::Count); ++i) {
     const auto output = static_cast<vm::Output>(i);
     const std::string name(api::output_name(d.form, output));
-    if (!name.empty()) json["outputs"][name] = output_json(d, output);
+    if (!name.empty()) json["outputs"][name] = output_json(program, d, output);
   }
-  for (const NamedEntry& e : kEntries) json["entries"][e.name] = entry_json(d.*e.entry, facts);
+  for (const api::NamedEntry& e : api::kEntries)
+    json["entries"][e.name] = entry_json(d.*e.entry, facts);
   return json;
 }
 
@@ -147,6 +144,16 @@ Json to_json(const lang::ParamInfo& p) {
   json["page"] = p.page;
   json["doc"] = p.doc;
   return json;
+}
+
+/// What is proven of a material's weights (api/bounds.h); rounding may pass 1 by a little.
+void print_weight(const Json& o) {
+  if (!o.contains("largest_weight")) return;
+  const double most = o["largest_weight"].get<double>();
+  if (most <= 1 + 1e-5)
+    fmt::print("  {:<18}proven: weights never exceed one (at most {:.4g})\n", "", most);
+  else
+    fmt::print("  {:<18}not proven that weights never exceed one (at most {:.4g})\n", "", most);
 }
 
 void print_descriptor(const Json& json) {
@@ -161,6 +168,7 @@ void print_descriptor(const Json& json) {
     if (!o["reads"].empty())
       line += fmt::format(" reads {}", fmt::join(o["reads"].get<std::vector<std::string>>(), " "));
     fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+    print_weight(o);
   }
   fmt::print("  {:<18}{:>12}{:>8}{:>8}{:>8}{:>12}  recursion\n", "entry", "instructions", "cost",
              "stack", "calls", "back edges");

@@ -104,6 +104,8 @@ Json to_json(const std::string& script, const std::string& path, const renderer:
           {"emission_runs", r.emission_runs},
           {"medium_runs", r.medium_runs},
           {"media_steps", r.media_steps},
+          {"medium_samples", r.medium_samples},
+          {"denser_samples", r.denser_samples},
           {"dropped_nan", r.dropped.nan},
           {"dropped_infinite", r.dropped.infinite},
           {"dropped_overflow", r.dropped.overflow},
@@ -131,6 +133,11 @@ void print_report(const RenderRequest& request, const std::string& script, const
         "warning: {}: {} samples were not finite and were left out; the first: pixel ({}, {}), "
         "sample {}\n",
         script, r.dropped.count(), r.dropped.first_x, r.dropped.first_y, r.dropped.first_sample);
+  if (r.denser_samples > 0)
+    fmt::print(stderr,
+               "warning: {}: volume denser than its bound: {} of {} samples; it was taken to be as "
+               "dense as the bound there\n",
+               script, r.denser_samples, r.medium_samples);
   for (const renderer::FaultCount& f : r.faults)
     fmt::print(stderr, "warning: {}: {} at {} points: the output's default was taken there\n",
                f.where, f.cause, f.lanes);

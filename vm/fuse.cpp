@@ -38,6 +38,25 @@ const KernelRow* kernel(LoweredOp op) {
   return row == std::end(kKernels) ? nullptr : row;
 }
 
+struct PairRow {
+  LoweredOp op;
+  Pair pair;
+};
+constexpr PairRow kPairs[] = {
+#define PAIR(first, second, position, constants)           \
+  {LoweredOp::first##_##second##_##position##_##constants, \
+   {LoweredOp::first, LoweredOp::second, position, constants}},
+#include "vm/pairs.def"
+#undef PAIR
+};
+
+/// The two operations of a fused one, or null.
+const Pair* tabled(LoweredOp op) {
+  const auto row = std::find_if(std::begin(kPairs), std::end(kPairs),
+                                [&](const PairRow& p) { return p.op == op; });
+  return row == std::end(kPairs) ? nullptr : &row->pair;
+}
+
 /// Where control may leave the straight line, or a callee may take lanes away.
 bool ends_line(LoweredOp op) {
   switch (op) {
@@ -200,17 +219,26 @@ bool commutes(LoweredOp op) {
   }
 }
 
+int operand_count(LoweredOp op) {
+  if (const KernelRow* row = kernel(op)) return row->count;
+  const Pair* pair = tabled(op);
+  return pair ? operand_count(pair->first) + operand_count(pair->second) - 1 : 1;
+}
+
+int cost_of(LoweredOp op) {
+  if (const Pair* pair = tabled(op)) return cost_of(pair->first) + cost_of(pair->second);
+  const auto k = static_cast<std::size_t>(op);
+  return k < static_cast<std::size_t>(kOpCount) ? kOps[k].cost : 1;
+}
+
 void fuse(LoweredCode& code, std::uint32_t begin, const PairOf& pair_of) {
   Fusion(code, begin, pair_of).run();
 }
 
-std::optional<LoweredOp> tabled_pair([[maybe_unused]] const Pair& pair) {
-#define PAIR(first, second, position, constants)                              \
-  if (pair == Pair{LoweredOp::first, LoweredOp::second, position, constants}) \
-    return LoweredOp::first##_##second##_##position##_##constants;
-#include "vm/pairs.def"
-#undef PAIR
-  return std::nullopt;
+std::optional<LoweredOp> tabled_pair(const Pair& pair) {
+  const auto row = std::find_if(std::begin(kPairs), std::end(kPairs),
+                                [&](const PairRow& p) { return p.pair == pair; });
+  return row == std::end(kPairs) ? std::nullopt : std::optional(row->op);
 }
 
 }  // namespace mms::vm

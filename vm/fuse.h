@@ -25,6 +25,12 @@ struct Pair {
 /// The instruction that is the pair, or nothing if it stays two.
 using PairOf = std::function<std::optional<LoweredOp>(const Pair&)>;
 
+/// Blocks that the instruction reads: operands of kernels and of their pairs; 1 for what is none.
+int operand_count(LoweredOp op);
+
+/// In units of one real addition, calls apart.
+int cost_of(LoweredOp op);
+
 /// Fuses the instructions from `begin` to the end of the code, which are one function's.
 void fuse(LoweredCode& code, std::uint32_t begin, const PairOf& pair_of);
 

@@ -263,6 +263,12 @@ void Interpreter<R>::run(const Executable& exe, std::uint32_t function, const In
 }
 
 template <class R>
+void Interpreter<R>::observe(void (*watch)(void*, std::uint32_t), void* watcher) {
+  state_->machine.watch = watch;
+  state_->machine.watcher = watcher;
+}
+
+template <class R>
 const R* Interpreter<R>::result(int k, int c) const {
   return reinterpret_cast<const R*>(state_->result_block(state_->results[k].slot + c));
 }

@@ -101,6 +101,10 @@ class Interpreter {
   void run(const Executable& exe, std::uint32_t function, const InputBatch<R>& in, int lanes,
            const RunOptions& options = {});
 
+  /// From now on calls `watch(watcher, k)` before each instruction k of the lowered code; null: no
+  /// more. Costs nothing where nobody watches.
+  void observe(void (*watch)(void* watcher, std::uint32_t instruction), void* watcher);
+
   /// Block of result `k` (component `c` of a spectrum). Real results only.
   const R* result(int k, int c = 0) const;
   /// Block of an Integer or Logic result.

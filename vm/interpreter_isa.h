@@ -47,7 +47,7 @@ class Frame {
 
   void run() {
     if (f_.loops) clear(mask(1));
-    do pass();
+    do m_.watch ? pass<true>() : pass<false>();
     while (f_.loops && restart());
   }
 
@@ -314,7 +314,8 @@ class Frame {
     return left;
   }
 
-  /// The code once, from its start to its end.
+  /// The code once, from its start to its end; telling the watcher of each instruction, if watched.
+  template <bool watched>
   void pass();
 
   Machine& m_;
@@ -325,10 +326,12 @@ class Frame {
 };
 
 template <class R>
+template <bool watched>
 void Frame<R>::pass() {
   const LoweredInstruction* code = m_.code;
   for (uint32_t pc = f_.begin;; ++pc) {
     const In& i = code[pc];
+    if constexpr (watched) m_.watch(m_.watcher, pc);
     switch (i.op) {
 #define KERNEL(op, ...)    \
   case LoweredOp::op:      \

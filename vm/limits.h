@@ -43,7 +43,7 @@ inline constexpr int kIfDepth = 4096;
 
 /// Values that the instructions of one program move, each counted where it stands: calls and arms
 /// can move far more than a file that holds them has bytes.
-inline constexpr int kMoves = 1 << 27;
+inline constexpr int kMoves = 1 << 24;
 
 /// Blocks of the frames of all open calls of one run, masks counted.
 inline constexpr int kStackBlocks = 1 << 18;

@@ -36,6 +36,10 @@ struct Machine {
   const void** in;  ///< room for the blocks of one builtin call
   void** out;
 
+  /// Called before each instruction, if there is one.
+  void (*watch)(void* watcher, std::uint32_t instruction);
+  void* watcher;
+
   std::size_t open_blocks;  ///< of all open frames
   void* frames;
   /// A frame of that many bytes, aligned to a cache line; frames are given back last first.

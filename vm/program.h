@@ -40,12 +40,12 @@ struct OpInfo {
   OperandForm operand;
   std::string_view pops, pushes;
   int cost;
-  std::string_view doc;
+  std::string_view derivative, doc;
 };
 
 inline constexpr OpInfo kOps[] = {
-#define OP(name, operand, pops, pushes, cost, doc) \
-  OpInfo{#name, OperandForm::operand, pops, pushes, cost, doc},
+#define OP(name, operand, pops, pushes, cost, derivative, doc) \
+  OpInfo{#name, OperandForm::operand, pops, pushes, cost, derivative, doc},
 #include "vm/opcodes.def"
 #undef OP
 };
@@ -58,9 +58,10 @@ struct Instruction {
   friend bool operator==(const Instruction&, const Instruction&) = default;
 };
 
-/// Where code came from: an index into `Program::sources` and a 1-based line (0: nowhere).
+/// Where code came from: an index into `Program::sources`, a 1-based line (0: nowhere) and a
+/// 1-based column in bytes (0: not known).
 struct SourceLine {
-  std::uint32_t source = 0, line = 0;
+  std::uint32_t source = 0, line = 0, column = 0;
   friend bool operator==(const SourceLine&, const SourceLine&) = default;
 };
 

@@ -28,9 +28,10 @@ struct StoredForm {
 constexpr const char* name_of(const SourceLine&) { return "line"; }
 template <class V>
 void fields(V& v, SourceLine& l) {
-  auto& [source, line] = l;
+  auto& [source, line, column] = l;
   v("source", source, "place in `sources`");
   v("line", line, "from 1; 0: nowhere");
+  v("column", column, "in bytes, from 1; 0: not known");
 }
 
 constexpr const char* name_of(const Constant&) { return "constant"; }

@@ -95,7 +95,7 @@ Fault verify_moves(const Program& program) {
   for (const Function& f : program.functions)
     for (const Instruction& i : f.code) {
       const std::size_t n = moves(program, f, i) + 1;
-      if (n > left) return fault(f.name, "its instructions move too many values");
+      if (n > left) return too_large(f.name, "its instructions move too many values");
       left -= n;
     }
   return std::nullopt;

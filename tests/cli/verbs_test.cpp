@@ -44,11 +44,12 @@ TEST_CASE("help and version") {
   CHECK(version.out.starts_with("mms "));
   const Outcome help = folder.mms("--help");
   CHECK(help.exit == 0);
-  for (const char* part : {"check", "render", "info", "eval", "disasm", "fmt", "test", "explain",
-                           "doc", "completion", "Exit codes", "Examples", "70", "130"})
+  for (const char* part :
+       {"check", "render", "info", "eval", "bounds", "disasm", "accuracy", "profile", "fmt", "test",
+        "explain", "doc", "completion", "Exit codes", "Examples", "70", "130"})
     CHECK(contains(help.out, part));
-  for (const char* verb :
-       {"check", "render", "info", "eval", "disasm", "fmt", "test", "explain", "doc"}) {
+  for (const char* verb : {"check", "render", "info", "eval", "bounds", "disasm", "accuracy",
+                           "profile", "fmt", "test", "explain", "doc"}) {
     const Outcome run = folder.mms(std::string(verb) + " --help");
     INFO(verb);
     CHECK(run.exit == 0);
@@ -232,7 +233,7 @@ TEST_CASE("--deps lists what is imported: lines, a rule for make, or JSON") {
   folder.write("deep.mms", "real deep() = 1;\n");
   folder.write("s.mms",
                "import \"a part.mms\";\nimport \"noise\" as n;\n"
-               "surface s bsdf = matte(half); end\n");
+               "surface s bsdf = matte(half * n::turbulence($position, 2)); end\n");
   for (const std::string verb : {"check", "info"}) {
     CHECK(folder.mms(verb + " --deps s.mms").out == "a part.mms\ndeep.mms\n");
     CHECK(folder.mms(verb + " --deps=make s.mms").out == "s.png: s.mms a\\ part.mms deep.mms\n");
@@ -300,6 +301,37 @@ TEST_CASE("render of several scripts, to a folder, as JSON") {
     CHECK(report.at("samples") == 2);
     CHECK(folder.has(std::string(name) + ".png"));
   }
+}
+
+TEST_CASE("bounds encloses stated outputs over a box, as text and as JSON") {
+  const Folder folder;
+  folder.write("hill.mms",
+               "surface hill\n  bsdf = matte(0.5);\n"
+               "  height = $position[0] * $position[0] + 1;\nend\n");
+  Outcome run = folder.mms("bounds hill.mms");
+  CHECK(run.exit == 0);
+  CHECK(run.err == "");
+  CHECK(contains(run.out, "surface hill\n  height      [1, 2]\n"));
+  run = folder.mms("bounds --over '$position=[2,3],0,0' --output height --format=json hill.mms");
+  CHECK(run.exit == 0);
+  const json height = json::parse(run.out)[0]["outputs"]["height"];
+  CHECK(height["lo"][0] == 5.0);
+  CHECK(height["hi"][0] == 10.0);
+  CHECK(height["nan"] == false);
+  // The last argument's mistake is told with what to try.
+  for (const char* bad : {"--over position=[1,0],0,0", "--over positoin=0", "--over position=[0,1",
+                          "--grid 0", "--grid 1x"}) {
+    run = folder.mms(std::string("bounds hill.mms ") + bad);
+    INFO(bad);
+    CHECK(run.exit == 2);
+    CHECK(contains(run.err, "= help:"));
+  }
+  run = folder.mms("bounds --output heigth hill.mms");
+  CHECK(run.exit != 0);
+  CHECK(contains(run.err, "try height"));
+  // What a material weighs at most is told by info.
+  run = folder.mms("info hill.mms");
+  CHECK(contains(run.out, "proven: weights never exceed one (at most 0.5)"));
 }
 
 TEST_CASE("a script from standard input renders to EXR") {

@@ -100,6 +100,17 @@ std::string choices(int n) {
   return text + fmt::format("  return y{};\nreal a() = f($time);", n);
 }
 
+// Each call of a function that is not expanded loads and takes 4002 numbers.
+std::string wide_calls(int n) {
+  std::string text =
+      "real f(real[4000] v, real x, integer k)\n"
+      "    = select v[0] + x, if k <= 0; f(v, x, k - 1) + v[1] otherwise end;\n"
+      "real a()\n  v = array(4000, function(i) -> $time * i);\n  s0 = 0.0;\n";
+  for (int i = 0; i < n; ++i)
+    text += fmt::format("  s{} = s{} + f(v, $time + {}, integer($time));\n", i + 1, i, i);
+  return text + fmt::format("  return s{};", n);
+}
+
 std::string bytes(int n) {
   std::string text = "const a = 1;";
   text.resize(static_cast<std::size_t>(n), ' ');
@@ -123,6 +134,8 @@ std::vector<Limit> make_limits() {
        constants(limits::kExpressionDepth / 2 + 2), "E0316", ""},
       {"kSlots", values(limits::kSlots / 2), values(limits::kSlots), "E0315", "", "too many"},
       {"kIfDepth", choices(limits::kIfDepth), choices(limits::kIfDepth + 3), "E0315", "", "If"},
+      {"kMoves", wide_calls(limits::kMoves / 13000), wide_calls(limits::kMoves / 11900), "E0315",
+       "", "too many values"},
       {"kStackBlocks", large_frames(100), large_frames(1400), "", "CallDepth"},
       {"kSourceBytes", bytes(limits::kSourceBytes), bytes(limits::kSourceBytes + 1), "E0162", ""},
   };

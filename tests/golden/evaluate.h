@@ -80,9 +80,8 @@ struct Run {
 };
 
 template <class R>
-Run run(const vm::Program& program, const vm::Executable& executable, std::uint32_t function,
-        vm::InputBatch<R>& in, int lanes, vm::Isa isa = vm::Isa::Best) {
-  vm::Interpreter<R> machine(in.width(), isa);
+Run run(vm::Interpreter<R>& machine, const vm::Program& program, const vm::Executable& executable,
+        std::uint32_t function, vm::InputBatch<R>& in, int lanes) {
   machine.run(executable, function, in, lanes);
   Run out;
   const std::vector<vm::SlotType>& types = program.functions[function].results;
@@ -101,6 +100,13 @@ Run run(const vm::Program& program, const vm::Executable& executable, std::uint3
   const auto faults = machine.faults();
   out.faults.assign(faults.begin(), faults.end());
   return out;
+}
+
+template <class R>
+Run run(const vm::Program& program, const vm::Executable& executable, std::uint32_t function,
+        vm::InputBatch<R>& in, int lanes, vm::Isa isa = vm::Isa::Best) {
+  vm::Interpreter<R> machine(in.width(), isa);
+  return run(machine, program, executable, function, in, lanes);
 }
 
 /// Equal as bits; any NaN equals any other.
@@ -169,15 +175,22 @@ std::vector<std::vector<double>> values_of(const vm::Program& p, const vm::Value
 
 /// Runs a point and gives all its slots, in order.
 template <class R>
-Run evaluate(const vm::Program& p, const vm::Executable& executable, const Point& point,
-             vm::InputBatch<R>& in, int lanes, vm::Isa isa = vm::Isa::Best) {
+Run evaluate(vm::Interpreter<R>& machine, const vm::Program& p, const vm::Executable& executable,
+             const Point& point, vm::InputBatch<R>& in, int lanes) {
   Run raw, out;
-  if (point.function) raw = run(p, executable, *point.function, in, lanes, isa);
+  if (point.function) raw = run(machine, p, executable, *point.function, in, lanes);
   for (const vm::ValueSource& s : point.sources)
     for (auto& slot : values_of<R>(p, s, point.function, raw, lanes))
       out.values.push_back(std::move(slot));
   out.faults = raw.faults;
   return out;
+}
+
+template <class R>
+Run evaluate(const vm::Program& p, const vm::Executable& executable, const Point& point,
+             vm::InputBatch<R>& in, int lanes, vm::Isa isa = vm::Isa::Best) {
+  vm::Interpreter<R> machine(in.width(), isa);
+  return evaluate(machine, p, executable, point, in, lanes);
 }
 
 }  // namespace mms::golden

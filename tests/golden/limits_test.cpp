@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "stdlib/stdlib.h"
 #include "tests/golden/corpus.h"
 #include "tests/golden/evaluate.h"
 #include "vm/limits.h"
@@ -147,6 +148,20 @@ TEST_CASE("a param that is not there") {
       compile(lang::make_source("t", "param real scale = 1; const a = scale;"), options);
   REQUIRE(codes(c) == Codes{"E0306"});
   CHECK(c.diagnostics.all()[0].helps == std::vector<std::string>{"did you mean `scale`?"});
+}
+
+TEST_CASE("a library function without a derivative rule") {
+  std::vector<vm::Builtin> rows(stdlib::builtins().begin(), stdlib::builtins().end());
+  for (vm::Builtin& row : rows)
+    if (row.signature == "real sin(real x)") row.derivative = {};
+  const auto source = lang::make_source("test.mms", "surface s height = sin($uv.x); end\n");
+  lang::Library library = api::standard_library();
+  library.builtins = rows;
+  Compiled c;
+  c.source = source;
+  c.graphs.push_back(lang::parse(source, c.diagnostics));
+  c.linked = lang::link(c.graphs, library, {}, c.diagnostics);
+  CHECK(codes(c) == Codes{"E0310"});
 }
 
 TEST_CASE("lobes of a material") {

@@ -2,9 +2,12 @@
 #pragma once
 
 /// \file
-/// Random scripts that must link: every type of a machine slot and what is built from them, calls,
-/// lambdas, generics, choices, recursion that ends (unrolled or not), materials. What varies over a
-/// batch is read through functions v0, v1, ... only, so that a script can also be given constants.
+/// Random scripts that must link: every type of a machine slot and what is built from them (arrays
+/// of one and two dimensions, structures, enumerations), calls with named and default arguments,
+/// lambdas and function values, generics of types and dimensions, choices, recursion that ends (in
+/// tail position or not, mutual, unrolled or not), params, every row of the library, materials.
+/// What varies over a batch is read through functions v0, v1, ... and w, so that a script can also
+/// be given constants.
 
 #include <random>
 #include <string>
@@ -12,40 +15,96 @@
 
 #include <fmt/format.h>
 
+#include "tests/property/library_rows.h"
+#include "vm/variables.h"
+
 namespace mms::property {
 
-inline constexpr int kVariables = 8;
+/// What the functions v0, v1, ... of a script read.
+struct VariableRead {
+  vm::Variable variable;
+  int component;
+  const char* text;
+};
+inline constexpr VariableRead kReads[] = {
+    {vm::Variable::Position, 0, "$position[0]"},
+    {vm::Variable::Position, 1, "$position.y"},
+    {vm::Variable::Position, 2, "$position[2]"},
+    {vm::Variable::ObjectPosition, 0, "$object_position[0]"},
+    {vm::Variable::ObjectPosition, 1, "$object_position[1]"},
+    {vm::Variable::Uv, 0, "$uv[0]"},
+    {vm::Variable::Uv, 1, "$uv.y"},
+    {vm::Variable::Normal, 2, "$normal.z"},
+    {vm::Variable::Distance, 0, "$distance"},
+    {vm::Variable::Footprint, 0, "$footprint[0, 0]"},
+    {vm::Variable::Time, 0, "$time"},
+};
+inline constexpr int kVariables = static_cast<int>(std::size(kReads));
+
+/// The definitions of v0, v1, ...: components of variables, or numbers.
+inline std::string variables(const std::vector<float>& numbers) {
+  std::string text;
+  for (std::size_t k = 0; k < std::size(kReads); ++k)
+    text += numbers.empty() ? fmt::format("real v{}() = {};\n", k, kReads[k].text)
+                            : fmt::format("real v{}() = {:.9f};\n", k, numbers[k]);
+  return text;
+}
+
+/// What every script begins with: definitions that the random ones use.
+inline constexpr const char* kPrelude =
+    "pair typeid struct real a; integer b; end;\n"
+    "finish typeid enum raw, oiled, waxed;\n"
+    "param real p0 = 1.5 in [0, 2], label = \"P\";\n"
+    "param integer p1 = 3;\n"
+    "generic T pick(logic c, generic T p, T q) = select p, if c; q otherwise end;\n"
+    "generic T twice(function(generic T) -> generic T f, generic T x) = f(f(x));\n"
+    "real apply(function(real) -> real f, real x) = f(x) + f(2 * x);\n"
+    "real combine(function(real, real) -> real f, real x, y = 0.5) = f(x, y);\n"
+    "real named(real x, y = 2 * 0.25, integer n = 3) = x - y * n;\n"
+    "real total(real[n] xs)\n"
+    "    real sum(integer k, real s) = select s, if k >= n; sum(k + 1, s + xs[k]) otherwise end;\n"
+    "    return sum(0, 0.0);\n"
+    "real trace(real[n, n] xs)\n"
+    "    real sum(integer k, real s) = select s, if k >= n; sum(k + 1, s + xs[k, k]) otherwise "
+    "end;\n"
+    "    return sum(0, 0.0);\n"
+    "finish choose(real x) = select finish::raw, if x < 0; finish::oiled, if x < 1; finish::waxed "
+    "otherwise end;\n"
+    "real parity(integer n, real x)\n"
+    "    real even(integer k, real t) = select t, if k <= 0; odd(k - 1, t * 0.5) otherwise end;\n"
+    "    real odd(integer k, real t) = select -t, if k <= 0; even(k - 1, t + 1) otherwise end;\n"
+    "    return even(n, x);\n"
+    "material coat(material under, real gloss = 40) = fresnel_mix(under, glossy(1, gloss), 1.5);\n";
 
 class Generator {
  public:
   explicit Generator(std::uint32_t seed) : random_(seed) {}
 
-  /// Everything but the definitions of v0 to v7, which are functions `real v0() = ...;`.
+  /// Everything but the definitions of v0, v1, ..., which are functions `real v0() = ...;`.
   std::string script() {
-    text_ =
-        "pair typeid struct real a; integer b; end;\n"
-        "generic T pick(logic c, generic T p, T q) = select p, if c; q otherwise end;\n"
-        "real apply(function(real) -> real f, real x) = f(x) + f(2 * x);\n";
+    text_ = kPrelude;
     const int functions = 2 + below(4);
     for (int k = 0; k < functions; ++k) function(k);
-    for (char type : std::string(kTypes)) {
+    for (char type : kTypes) {
       locals_.clear();
       text_ += fmt::format("{} out_{}() = {};\n", spelled(type), type, expr(type, 4));
     }
     locals_.clear();
     text_ += fmt::format(
-        "surface s\n  bsdf = select mix(matte({}), glossy({}, {}), {}), if {}; {} otherwise end;\n"
-        "  scattering = {};\n  height = {};\n  gradient = [{}, {}];\nend\n",
-        expr('S', 2), expr('S', 2), expr('R', 2), expr('S', 2), expr('L', 2),
-        chance(50) ? "mirror(" + expr('S', 2) + ")"
-                   : fmt::format("mix(matte({}), glossy(1, {}), 0.5)", expr('S', 2), expr('R', 2)),
-        expr('S', 3), expr('R', 3), expr('R', 2), expr('R', 2));
+        "surface s\n  bsdf = {};\n  scattering = {};\n  height = {};\n  gradient = [{}, {}];\n"
+        "  emission = {};\nend\n",
+        material(3), expr('S', 3), expr('R', 3), expr('R', 2), expr('R', 2), expr('S', 2));
+    text_ += fmt::format(
+        "volume v\n  phase = mix(isotropic(), henyey_greenstein({}), {});\n  scattering = {};\n"
+        "  absorption = {};\n  emission = {};\n  bound = {};\nend\n",
+        expr('R', 2), expr('S', 2), expr('S', 2), expr('S', 2), expr('S', 2), expr('R', 2));
     return text_;
   }
 
  private:
-  /// Logic, Integer, Real, Complex, Spectrum, Vector of three reals, Pair.
-  static constexpr const char* kTypes = "LIRCSVP";
+  /// Logic, Integer, Real, Complex, Spectrum, Vector of three reals, Pair, Matrix of 2 by 2 reals,
+  /// Enumeration.
+  static constexpr std::string_view kTypes = "LIRCSVPME";
   struct Named {
     std::string name;
     char type;
@@ -58,7 +117,9 @@ class Generator {
 
   int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
   bool chance(int percent) { return below(100) < percent; }
-  char any_type() { return kTypes[below(7)]; }
+  char any_type() {
+    return kTypes[static_cast<std::size_t>(below(static_cast<int>(kTypes.size())))];
+  }
   std::string fresh() { return fmt::format("n{}", names_++); }
 
   static std::string spelled(char type) {
@@ -75,6 +136,10 @@ class Generator {
         return "spectrum";
       case 'V':
         return "real[3]";
+      case 'M':
+        return "real[2, 2]";
+      case 'E':
+        return "finish";
       default:
         return "pair";
     }
@@ -135,6 +200,61 @@ class Generator {
     return s + ")";
   }
 
+  /// A call of a row of the library; empty where none has that result.
+  std::string library_call(char result, int depth) {
+    static const std::vector<LibraryRow> rows = library_rows();
+    std::vector<const LibraryRow*> fit;
+    for (const LibraryRow& row : rows)
+      if (row.result == result) fit.push_back(&row);
+    if (fit.empty()) return {};
+    const LibraryRow& row = *fit[static_cast<std::size_t>(below(static_cast<int>(fit.size())))];
+    std::string s = row.name + "(";
+    for (std::size_t i = 0; i < row.formals.size(); ++i) {
+      if (i) s += ", ";
+      const char type = row.formals[i];
+      if (type != '2' && type != '4') {
+        s += expr(type, depth - 1);
+        continue;
+      }
+      for (int k = 0; k < type - '0'; ++k) s += (k ? ", " : "[") + expr('R', depth - 1);
+      s += "]";
+    }
+    return s + ")";
+  }
+
+  std::string material(int depth) {
+    if (depth <= 0) switch (below(6)) {
+        case 0:
+          return fmt::format("matte({})", expr('S', 2));
+        case 1:
+          return fmt::format("glossy({}, gloss = {})", expr('S', 1), expr('R', 2));
+        case 2:
+          return fmt::format("dielectric({}, {})", expr('S', 1), expr('R', 1));
+        case 3:
+          return fmt::format("microfacet({}, {}, {})", expr('S', 1), expr('R', 1), expr('R', 1));
+        case 4:
+          return fmt::format("mirror({})", expr('S', 1));
+        default:
+          return fmt::format("gold({})", expr('R', 1));
+      }
+    const int d = depth - 1;
+    switch (below(6)) {
+      case 0:
+        return fmt::format("mix({}, {}, {})", material(d), material(d), expr('S', 1));
+      case 1:
+        return fmt::format("select {}, if {}; {} otherwise end", material(d), expr('L', 2),
+                           material(d));
+      case 2:
+        return fmt::format("pick({}, {}, {})", expr('L', 1), material(d), material(d));
+      case 3:
+        return fmt::format("coat({})", material(d));
+      case 4:
+        return fmt::format("({} * {} + {})", expr('S', 1), material(d), material(0));
+      default:
+        return material(d);
+    }
+  }
+
   std::string variable() { return fmt::format("v{}", below(kVariables)); }
 
   std::string leaf(char type) {
@@ -149,10 +269,13 @@ class Generator {
                : chance(50) ? "true"
                             : "false";
       case 'I':
-        return chance(50) ? fmt::format("{}", below(7))
-                          : fmt::format("integer(4 * {})", variable());
+        return chance(50)   ? fmt::format("{}", below(7))
+               : chance(10) ? "p1"
+                            : fmt::format("integer(4 * {})", variable());
       case 'R':
-        return chance(40) ? fmt::format("{}.{}", below(3), below(100)) : variable();
+        return chance(40)   ? fmt::format("{}.{}", below(3), below(100))
+               : chance(10) ? "p0"
+                            : variable();
       case 'C':
         return chance(50) ? fmt::format("({} + {}i)", variable(), below(4))
                           : fmt::format("{}.5i", below(3));
@@ -160,6 +283,10 @@ class Generator {
         return chance(50) ? "($wavelength * 1e6)" : fmt::format("spectrum({})", variable());
       case 'V':
         return fmt::format("[{}, {}, 0.5]", variable(), variable());
+      case 'M':
+        return fmt::format("[{}, 0.25; 2, {}]", variable(), variable());
+      case 'E':
+        return chance(50) ? "finish::oiled" : fmt::format("choose({})", variable());
       default:
         return fmt::format("pair({}, {})", variable(), below(5));
     }
@@ -174,7 +301,7 @@ class Generator {
     const int d = depth - 1;
     auto e = [&](char t) { return expr(t, d); };
     // What every type has.
-    switch (below(10)) {
+    switch (below(12)) {
       case 0: {
         const std::string c = e('L'), a = e(type);
         return fmt::format("(select {}, if {}; {} otherwise end)", a, c, e(type));
@@ -193,6 +320,16 @@ class Generator {
         locals_.pop_back();
         return fmt::format("(function(real {}) -> {})({})", x, inside, argument);
       }
+      case 4: {
+        const std::string x = fresh();
+        return fmt::format("twice(function({}) -> {}, {})", x, with(x, type, std::min(d, 2)),
+                           e(type));
+      }
+      case 5: {
+        const std::string s = library_call(type, d);
+        if (!s.empty()) return s;
+        break;
+      }
       default:
         break;
     }
@@ -209,14 +346,21 @@ class Generator {
         return spectrum(d);
       case 'V':
         return vector(d);
+      case 'M':
+        return matrix(d);
+      case 'E':
+        return fmt::format("choose({})", e('R'));
       default:
-        return fmt::format("pair({}, {})", e('R'), e('I'));
+        return chance(50) ? fmt::format("pair({}, {})", e('R'), e('I'))
+                          : fmt::format("pair(b = {}, a = {})", e('I'), e('R'));
     }
   }
 
   std::string logic(int d) {
     auto e = [&](char t) { return expr(t, d); };
-    switch (below(6)) {
+    switch (below(7)) {
+      case 6:
+        return fmt::format("({} {} {})", e('E'), one_of({"==", "!="}), e('E'));
       case 0:
         return fmt::format("({} {} {})", e('L'), one_of({"and", "or", "==", "!="}), e('L'));
       case 1:
@@ -251,7 +395,28 @@ class Generator {
 
   std::string real(int d) {
     auto e = [&](char t) { return expr(t, d); };
-    switch (below(16)) {
+    switch (below(23)) {
+      case 16:
+        return fmt::format("combine({}, {})",
+                           one_of({"#+", "#*", "#/", "#-", "#%", "#atan2", "#min", "#hypot"}),
+                           e('R'));
+      case 17:
+        return chance(50) ? fmt::format("named(y = {}, x = {})", e('R'), e('R'))
+                          : fmt::format("named({}, n = {})", e('R'), e('I'));
+      case 18:
+        return chance(50) ? fmt::format("trace({})", e('M'))
+                          : fmt::format("total([{}, {}, {}, 1])", e('R'), e('R'), e('I'));
+      case 19:
+        return fmt::format("parity({}, {})",
+                           chance(50) ? std::to_string(below(5)) : "(" + e('I') + " % 5)", e('R'));
+      case 20:
+        return fmt::format("apply({}, {})", one_of({"#sin", "#abs", "#floor", "#cos", "#saturate"}),
+                           e('R'));
+      case 21:
+        return fmt::format("{}[{}, {}]", e('M'), below(2),
+                           chance(50) ? std::to_string(below(2)) : "clamp(" + e('I') + ", 0, 1)");
+      case 22:
+        return fmt::format("{}.a", e('P'));
       case 0:
         return fmt::format("(-{})", e('R'));
       case 1:
@@ -342,6 +507,19 @@ class Generator {
       default:
         return fmt::format("({} {} {})", e('V'), one_of({"+", "-", "*"}),
                            e(chance(60) ? 'V' : 'R'));
+    }
+  }
+
+  std::string matrix(int d) {
+    auto e = [&](char t) { return expr(t, d); };
+    switch (below(4)) {
+      case 0:
+        return fmt::format("[{}, {}; {}, {}]", e('R'), e('I'), e('R'), e('R'));
+      case 1:
+        return fmt::format("(-{})", e('M'));
+      default:
+        return fmt::format("({} {} {})", e('M'), one_of({"+", "-", "*"}),
+                           e(chance(60) ? 'M' : 'R'));
     }
   }
 

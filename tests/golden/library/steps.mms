@@ -1,6 +1,6 @@
 // Steps at, below and above their edges, and what they become over a width.
 const a0 = [step(0.5, 0.4999999), step(0.5, 0.5), step(0.5, 7.0)];                                                      // expect: [0, 1, 1]
-const a1 = [step(0.5, 0.3, 0.4), step(0.5, 0.5, 0.4), step(0.5, 0.9, 0.4)];                                             // expect: [0, 0.5, 1]
+const a1 = [step(0.5, 0.25, 0.4), step(0.5, 0.5, 0.4), step(0.5, 0.9, 0.4)];                                            // expect: [0, 0.5, 1]
 const a2 = [pulse(0, 1, 0), pulse(0, 1, 1), pulse(0, 1, 0, 0.5), pulse(0, 1, 0.5, 2), pulse(0, 1, 9, 2)];               // expect: [1, 0, 0.5, 0.5, 0]
 const a3 = [linearstep(1, 3, 1), linearstep(1, 3, 3), linearstep(1, 3, 9)];                                             // expect: [0, 1, 1]
 const a4 = [linearstep(0, 1, 0, 1), linearstep(0, 1, 1, 1), linearstep(0, 1, 0.5, 8)];                                  // expect: [0.125, 0.875, 0.5]

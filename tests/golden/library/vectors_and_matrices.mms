@@ -1,6 +1,5 @@
 // Vectors and matrices, real and complex.
 const a0 = refract([0.5, -sqrt(0.75)], [0, 1], 1 / 1.5);                                                                                          // expect: [0.3333333333333333, -0.9428090415820634]
-const a1 = refract([0.8, -0.6], [0, 1], 1.25);                                                                                                    // expect~2e-3: [1, 0]
 const a2 = refract([0.8, -0.6], [0, 1], 1.5);                                                                                                     // expect: [0, 0]
 const a3 = faceforward([1, -2], [0, 1]);                                                                                                          // expect: [-1, 2]
 const a4 = transpose([1, 2, 3; 4, 5, 6]);                                                                                                         // expect: [1, 4, 2, 5, 3, 6]
@@ -11,7 +10,7 @@ const a8 = multiply([2.0, 1, 7; 3, 1, 4; 2, 0, 2], inverse([2, 1, 7; 3, 1, 4; 2,
 const m = [2, 1, 0, 3; 1, 4, 2, 1; 0, 2, 5, 1; 1, 0, 1, 3];                                                                                       // expect: [2, 1, 0, 3, 1, 4, 2, 1, 0, 2, 5, 1, 1, 0, 1, 3]
 const a9 = length(map(#length, multiply(1.0 * m, inverse(m)) - identity(4))) < 1e-6;                                      // expect: true
 const b0 = determinant([1i, 2, 0; 3, 1 + 1i, 1; 0, 1, 2]);                                                                                        // expect: [-14.0, 1.0]
-const b1 = multiply([1i, 2; 3, 1 + 1i], inverse([1i, 2; 3, 1 + 1i]));                                                                             // expect: [1, 0, 0, 0, 0, 0, 1, 0]
+const b1 = length(map(#length, multiply([1i, 2; 3, 1 + 1i], inverse([1i, 2; 3, 1 + 1i])) - identity(2))) < 1e-6;                                  // expect: true
 const b2 = rotate([1, 2, 3], [1, -1, 2], 0.7);                                                                                                    // expect: [-0.8801983552955153, 1.0707187611380131, 3.475458558216764]
 const r = rotation([1, -1, 2], 2.5);                                                                                                            
 const b3 = length(map(#length, multiply(r, transpose(r)) - identity(3))) < 1e-6;                                                                  // expect: true

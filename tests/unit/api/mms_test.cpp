@@ -12,9 +12,13 @@
 
 #include <doctest/doctest.h>
 
+#include "linked.h"
+
 extern "C" int heights_from_c(float* heights);
 
 namespace {
+
+using mms::api::Linked;
 
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -45,28 +49,6 @@ const char* const kMySurface =
     "  gradient = [$position[1], 3.0];\n"
     "end\n";
 const char* const kMarble = "real marble_albedo(real x) = 2 * x;\n";
-
-/// A program of one script that links, and a context for it.
-struct Linked {
-  explicit Linked(const std::string& script) {
-    MMsGraph* graph = mmsMkGraph();
-    if (mmsParseString(*graph, script) && mmsAddGraph(*program, *graph) &&
-        mmsLinkProgram(*program, mms::O2))
-      context = mmsMkContext(*program);
-    log = std::string(mmsGetGraphLog(*graph)) + mmsGetProgramLog(*program);
-    mmsDeleteGraph(graph);
-  }
-  ~Linked() {
-    mmsDeleteContext(context);
-    mmsDeleteProgram(program);
-  }
-  Linked(const Linked&) = delete;
-  Linked& operator=(const Linked&) = delete;
-
-  MMsProgram* program = mmsMkProgram();
-  MMsContext* context = nullptr;
-  std::string log;
-};
 
 /// What the surface of Algorithm 6.2 must evaluate to.
 void check_surface(const MMsProgram& program, const Surface& surface) {
@@ -247,6 +229,39 @@ TEST_CASE("evaluation says what it cannot do") {
   CHECK(mmsEvalSurface(linked.context, surface, "height", &one, value));
   CHECK(value[0] == 1.0f);
   CHECK(log() == "");
+}
+
+TEST_CASE("bounds enclose an output over a box, and say what is wrong with a bad one") {
+  const Linked linked(
+      "surface \"s\" height = $position[0] * $position[0]; scattering = rgb(0.25, 0.5, 0.75); end\n"
+      "volume \"v\" absorption = 2 + $object_position[2]; end\n");
+  REQUIRE_MESSAGE(linked.context, linked.log);
+  const MMsSurface* surface = mmsGetSurface(linked.program, "s");
+  float lo[2] = {}, hi[2] = {};
+  const auto log = [&] { return std::string(mmsGetContextLog(linked.context)); };
+  REQUIRE(mmsBoundSurface(linked.context, surface, "height", nullptr, 0, 1, lo, hi));
+  CHECK(lo[0] == 0.0f);
+  CHECK(hi[0] == 1.0f);
+  const float from[] = {2, -1, -1}, to[] = {3, 1, 1};
+  const MMsInterval box{"position", from, to};
+  REQUIRE(mmsBoundSurface(linked.context, surface, "height", &box, 1, 4, lo, hi));
+  CHECK(lo[0] == 4.0f);
+  CHECK(hi[0] == 9.0f);
+  REQUIRE(mmsBoundSurface(linked.context, surface, "scattering", nullptr, 0, 1, lo, hi));
+  CHECK(lo[0] <= 0.25f);
+  CHECK(hi[0] >= 0.75f);
+  REQUIRE(mmsBoundVolume(linked.context, mmsGetVolume(linked.program, "v"), "absorption", nullptr,
+                         0, 1, lo, hi));
+  CHECK(lo[0] == 1.0f);
+  CHECK(hi[0] == 3.0f);
+
+  const MMsInterval unknown{"positoin", from, to}, backwards{"position", to, from};
+  CHECK_FALSE(mmsBoundSurface(linked.context, surface, "height", &unknown, 1, 1, lo, hi));
+  CHECK(log().find("position") != std::string::npos);
+  CHECK_FALSE(mmsBoundSurface(linked.context, surface, "height", &backwards, 1, 1, lo, hi));
+  CHECK(log().find("no interval") != std::string::npos);
+  CHECK_FALSE(mmsBoundSurface(linked.context, surface, "bsdf", nullptr, 0, 1, lo, hi));
+  CHECK(log().find("bsdf") != std::string::npos);
 }
 
 TEST_CASE("a null handle fails quietly") {

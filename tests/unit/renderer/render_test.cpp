@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/warp.h"
 #include "hand_program.h"
@@ -345,9 +346,9 @@ TEST_CASE("options out of range are errors that say what is allowed") {
   CHECK(render(h.program, s, o).error().where == "depth");
 }
 
-TEST_CASE("a volume that varies needs a bound, and the message says so") {
+TEST_CASE("a volume without a finite bound is an error, and the message says so") {
   HandProgram h;
-  vm::Descriptor& d = h.volume("cloud", 1, 0);
+  vm::Descriptor& d = h.volume("cloud", std::numeric_limits<double>::infinity(), 0);
   d.outputs[int(vm::Output::Scattering)].variables = 1u << int(vm::Variable::Position);
   const Result<Rendered> r = render(h.program, builtin(h.program, "furnace"), options(8, 1));
   REQUIRE_FALSE(bool(r));

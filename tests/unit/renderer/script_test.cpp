@@ -7,6 +7,7 @@
 #include "hand_program.h"
 #include "lang/link.h"
 #include "lang/parser.h"
+#include "renderer/enclosure.h"
 #include "renderer/scene.h"
 #include "stdlib/stdlib.h"
 
@@ -110,6 +111,53 @@ TEST_CASE("a volume that varies is tracked: optical depth along the diameter of 
   const Mean m = mean_luminance(r->film);
   CHECK(std::abs(m.value - std::exp(-0.8)) < 4 * m.error);
   CHECK(r->report.medium_runs > 0);
+}
+
+TEST_CASE(
+    "a volume that states no bound takes it from its enclosure; one that is too small is told") {
+  const std::string narrow =
+      R"({"camera": {"position": [0, 0, 5], "target": [0, 0, 0], "fov": 0.01},
+    "environment": {"constant": 1}, "objects": [{"sphere": {}, "test": true}]})";
+  const auto rendered = [&](const char* absorption, const char* bound) {
+    const vm::Program p =
+        compile(std::string("volume a\n absorption = ") + absorption + ";" + bound + "\nend\n");
+    return render(p, scene_of(p, narrow), options(16, 64));
+  };
+  Result<Rendered> r = rendered("0.4 * (1 + $object_position.z)", "");
+  REQUIRE(bool(r));
+  const Mean m = mean_luminance(r->film);
+  CHECK(std::abs(m.value - std::exp(-0.8)) < 4 * m.error);
+  CHECK(r->report.medium_samples > 0);
+  CHECK(r->report.denser_samples == 0);
+
+  // The bound 0.4 holds in one half; in the other the volume is held at it: 0.4 (1/2 + 1).
+  r = rendered("0.4 * (1 + $object_position.z)", "bound = 0.4;");
+  REQUIRE(bool(r));
+  const Mean held = mean_luminance(r->film);
+  CHECK(std::abs(held.value - std::exp(-0.6)) < 4 * held.error);
+  CHECK(r->report.denser_samples > r->report.medium_samples / 4);
+  CHECK(r->report.denser_samples < r->report.medium_samples * 3 / 4);
+
+  // Where no enclosure is finite, the author must say.
+  r = rendered("1 / abs($object_position.z)", "");
+  REQUIRE_FALSE(bool(r));
+  CHECK(r.error().what.find("states no `bound`, and none is found") != std::string::npos);
+}
+
+TEST_CASE("enclosures of an object's script hold over its own box") {
+  const vm::Program p = compile(
+      "surface a\n height = 0.1 * $object_position.x + 0.5;\nend\n"
+      "volume a\n scattering = 2 + sin(3 * $position.x); absorption = rgb(1, 0, 0);\nend\n");
+  Object o;
+  o.shape = Sphere{{4, 0, 0}, 2};
+  o.transform.scale = 2;
+  o.transform.move = {4, 0, 0};
+  const double height = largest_height(p, *p.find(vm::DescriptorForm::Surface, "a"), o);
+  CHECK(height >= 0.6);
+  CHECK(height < 0.601);
+  const double extinction = largest_extinction(p, *p.find(vm::DescriptorForm::Volume, "a"), o);
+  CHECK(extinction >= 4);
+  CHECK(extinction < 4.01);
 }
 
 TEST_CASE("endless recursion is an error that names the line, before anything is rendered") {

@@ -238,12 +238,14 @@ TEST_CASE("lattice vectors of neighbours are independent") {
   }
 }
 
-TEST_CASE("cellnoise is constant in a cell, hash tells neighbours apart, -0 is 0") {
+TEST_CASE("cellnoise is constant in a cell, hash tells neighbours apart, -0 is 0, a NaN any other") {
   const vm::Builtin& cells = find("real cellnoise(real[3] p)");
   CHECK(call<float>(cells, 3.0f, -2.0f, 7.0f) == call<float>(cells, 3.99f, -1.01f, 7.5f));
   CHECK(call<float>(cells, 3.0f, -2.0f, 7.0f) != call<float>(cells, 3.0f, -2.01f, 7.0f));
   const vm::Builtin& hash = find("real hash(real x)");
   CHECK(call<float>(hash, 0.0f) == call<float>(hash, -0.0f));
+  CHECK(call<float>(hash, float(NAN)) == call<float>(hash, -float(NAN)));
+  CHECK(call<float>(hash, float(NAN)) == call<double>(hash, double(NAN)));
   CHECK(call<float>(hash, 1.0f) != call<float>(hash, 1.0000001f));
 }
 

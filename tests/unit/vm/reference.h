@@ -4,6 +4,8 @@
 /// \file
 /// The oracle: one lane, the stack machine as opcodes.def describes it, written as plainly as it
 /// can be. Arithmetic goes through wider types and the standard library, not through our kernels.
+/// The machine is a template over the domain that its values are of: `Plain<float>` and
+/// `Plain<double>` here; tests/property/bounded.h has numbers with bounds of their error.
 
 #include <array>
 #include <cmath>
@@ -17,7 +19,11 @@
 
 namespace mms::vm::test {
 
+#if __LDBL_MANT_DIG__ >= 106
+using Quad = long double;
+#else
 __extension__ using Quad = __float128;
+#endif
 
 /// A type wide enough that rounding an exact sum, product or quotient through it to T is the same
 /// as rounding once: at least 2 p + 2 bits (Figueroa 1995).
@@ -160,25 +166,69 @@ Cell<T> apply(Op op, const Cell<T>& a, const Cell<T>& b, const Cell<T>& c) {
   return d;
 }
 
-/// Runs one lane of a verified program.
+/// Numbers as either machine has them.
 template <class T>
-class Reference {
+struct Plain {
+  using Cell = test::Cell<T>;
+
+  static Cell constant(const Constant& c) {
+    Cell cell;
+    cell.r[0] = sizeof(T) == 4 ? T(c.f32) : T(c.f64);
+    cell.i = c.integer;
+    return cell;
+  }
+
+  static bool truth(const Cell& c) { return c.i; }
+
+  static Cell apply(Op op, const Cell& a, const Cell& b, const Cell& c) {
+    return test::apply(op, a, b, c);
+  }
+
+  /// All arguments are real.
+  static std::vector<Cell> builtin(const Builtin& row, const std::vector<SlotType>&,
+                                   const std::vector<SlotType>& types,
+                                   const std::vector<Cell>& args) {
+    alignas(64) T in[8][kLaneMultiple], out[8][kLaneMultiple];
+    const void* ins[8];
+    void* outs[8];
+    for (int j = 0; j < 8; ++j) ins[j] = in[j], outs[j] = out[j];
+    for (std::size_t j = 0; j < args.size(); ++j) std::fill_n(in[j], kLaneMultiple, args[j].r[0]);
+    (sizeof(T) == 4 ? row.f32 : row.f64)(ins, outs, kLaneMultiple);
+    std::vector<Cell> results(types.size());
+    for (std::size_t j = 0; j < types.size(); ++j) {
+      if (types[j] == SlotType::Real)
+        results[j].r[0] = out[j][0];
+      else
+        std::memcpy(&results[j].i, out[j], sizeof(std::int32_t));
+    }
+    return results;
+  }
+};
+
+/// Runs one lane of a verified program. A domain is like Plain: its `Cell` has the members of
+/// test::Cell.
+template <class Domain>
+class Machine {
  public:
-  using Values = std::vector<Cell<T>>;
+  using Cell = typename Domain::Cell;
+  using Values = std::vector<Cell>;
   struct GivenUp {
     bool depth;
     SourceLine line;
   };
 
   /// `inputs`: a cell for each machine input.
-  Reference(const Program& program, Values inputs) : p_(program), inputs_(std::move(inputs)) {
+  Machine(const Program& program, Values inputs) : p_(program), inputs_(std::move(inputs)) {
     const std::size_t n = p_.functions.size();
     reaches_.assign(n, std::vector<bool>(n));
     for (std::size_t f = 0; f < n; ++f) mark(f, f);
   }
 
-  /// Throws GivenUp where the machine gives the lane up.
-  Values run(std::uint32_t function) { return run(function, {}, 0); }
+  /// Throws GivenUp where the machine gives the lane up, and what the domain throws.
+  Values run(std::uint32_t function) {
+    spent_ = 0;
+    return run(function, {}, 0);
+  }
 
  private:
   void mark(std::size_t from, std::size_t at) {
@@ -208,23 +258,8 @@ class Reference {
     }
   }
 
-  Values builtin(std::uint32_t k, const std::vector<T>& reals) {
-    const Builtin& row = *p_.builtins[k];
-    const std::vector<SlotType>& types = p_.builtin_results[k];
-    alignas(64) T in[8][kLaneMultiple], out[8][kLaneMultiple];
-    const void* ins[8];
-    void* outs[8];
-    for (int j = 0; j < 8; ++j) ins[j] = in[j], outs[j] = out[j];
-    for (std::size_t j = 0; j < reals.size(); ++j) std::fill_n(in[j], kLaneMultiple, reals[j]);
-    (sizeof(T) == 4 ? row.f32 : row.f64)(ins, outs, kLaneMultiple);
-    Values results(types.size());
-    for (std::size_t j = 0; j < types.size(); ++j) {
-      if (types[j] == SlotType::Real)
-        results[j].r[0] = out[j][0];
-      else
-        std::memcpy(&results[j].i, out[j], sizeof(std::int32_t));
-    }
-    return results;
+  Values builtin(std::uint32_t k, const Values& args) {
+    return Domain::builtin(*p_.builtins[k], p_.builtin_params[k], p_.builtin_results[k], args);
   }
 
   Values run(std::uint32_t function, Values locals, int depth);
@@ -236,21 +271,20 @@ class Reference {
 };
 
 template <class T>
-typename Reference<T>::Values Reference<T>::run(std::uint32_t function, Values locals, int depth) {
+using Reference = Machine<Plain<T>>;
+
+template <class Domain>
+typename Machine<Domain>::Values Machine<Domain>::run(std::uint32_t function, Values locals,
+                                                      int depth) {
   const Function& f = p_.functions[function];
   Values stack;
   locals.resize(f.locals.size());
   for (std::size_t pc = 0;;) {
     const Instruction i = f.code[pc];
     switch (i.op) {
-      case Op::PushConst: {
-        const Constant& c = p_.constants[i.a];
-        Cell<T> cell;
-        cell.r[0] = sizeof(T) == 4 ? T(c.f32) : T(c.f64);
-        cell.i = c.integer;
-        stack.push_back(cell);
+      case Op::PushConst:
+        stack.push_back(Domain::constant(p_.constants[i.a]));
         break;
-      }
       case Op::PushInput:
         stack.push_back(inputs_[i.a]);
         break;
@@ -261,7 +295,7 @@ typename Reference<T>::Values Reference<T>::run(std::uint32_t function, Values l
         locals[i.a] = pop(stack, 1)[0];
         break;
       case Op::If:
-        if (!pop(stack, 1)[0].i) {
+        if (!Domain::truth(pop(stack, 1)[0])) {
           pc = skip(f, pc);
           continue;
         }
@@ -280,33 +314,31 @@ typename Reference<T>::Values Reference<T>::run(std::uint32_t function, Values l
         break;
       }
       case Op::CallBuiltin: {
-        std::vector<T> reals;
-        for (const Cell<T>& c : pop(stack, p_.builtin_params[i.a].size())) reals.push_back(c.r[0]);
-        const Values results = builtin(i.a, reals);
+        const Values results = builtin(i.a, pop(stack, p_.builtin_params[i.a].size()));
         stack.insert(stack.end(), results.begin(), results.end());
         break;
       }
       case Op::Component: {
-        Cell<T> value;
+        Cell value;
         value.r[0] = pop(stack, 1)[0].r[i.a];
         stack.push_back(value);
         break;
       }
       case Op::Pack: {
         const Values in = pop(stack, kWavelengths);
-        Cell<T> spectrum;
+        Cell spectrum;
         for (int k = 0; k < kWavelengths; ++k) spectrum.r[k] = in[std::size_t(k)].r[0];
         stack.push_back(spectrum);
         break;
       }
       case Op::CallSpectral: {
         const Values args = pop(stack, p_.builtin_params[i.a].size());
-        Cell<T> result;
+        Cell result;
         for (int k = 0; k < kWavelengths; ++k) {
-          std::vector<T> reals;
+          Values at(args.size());
           for (std::size_t j = 0; j < args.size(); ++j)
-            reals.push_back(args[j].r[i.b >> j & 1 ? k : 0]);
-          result.r[k] = builtin(i.a, reals)[0].r[0];
+            at[j].r[0] = args[j].r[i.b >> j & 1 ? k : 0];
+          result.r[k] = builtin(i.a, at)[0].r[0];
         }
         stack.push_back(result);
         break;
@@ -322,7 +354,7 @@ typename Reference<T>::Values Reference<T>::run(std::uint32_t function, Values l
       default: {
         Values in = pop(stack, info(i.op).pops.size());
         in.resize(3);
-        stack.push_back(apply(i.op, in[0], in[1], in[2]));
+        stack.push_back(Domain::apply(i.op, in[0], in[1], in[2]));
       }
     }
     ++pc;

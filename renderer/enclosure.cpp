@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/enclosure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "renderer/shape.h"
+
+namespace mms::renderer {
+namespace {
+
+using vm::Interval;
+using vm::Variable;
+
+double component(Vec3d v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
+
+/// An interval with room for the rounding of a point that is found along a ray.
+Interval roomy(double low, double high) {
+  const double room = 1e-4 * (high - low) + 1e-6 * std::max(std::abs(low), std::abs(high));
+  return vm::reals(low - room, high + room);
+}
+
+/// The inputs that any of `values` of an entry reads and that `box` does not fix.
+std::vector<int> positions_read(const vm::Descriptor& d, std::span<const vm::Output> outputs) {
+  std::uint32_t variables = 0;
+  for (const vm::Output o : outputs) variables |= d.output(o).variables;
+  std::vector<int> axes;
+  for (const Variable v : {Variable::Position, Variable::ObjectPosition})
+    if (variables >> int(v) & 1)
+      for (int c = 0; c < 3; ++c) axes.push_back(vm::input_index(v, c));
+  // Both at once would be a grid in six dimensions.
+  if (axes.size() > 3) axes.resize(3);
+  return axes;
+}
+
+/// The largest of `f(box)` over a grid.
+template <class F>
+double largest(const vm::Box& box, std::span<const int> axes, F f) {
+  double most = -Interval::kInf;
+  vm::each_part(box, axes, kMajorantCells, [&](const vm::Box& part) {
+    most = std::max(most, f(part));
+    return std::isfinite(most);
+  });
+  return most;
+}
+
+}  // namespace
+
+vm::Box box_of(const Object& o) {
+  constexpr double kInf = Interval::kInf;
+  vm::Box box = vm::Box::unit_sphere();
+  const Bounds world = bounds(o.shape);
+  Bounds local;
+  for (int corner = 0; corner < 8; ++corner)
+    local.add(o.transform.inverse_point({corner & 1 ? world.high.x : world.low.x,
+                                         corner & 2 ? world.high.y : world.low.y,
+                                         corner & 4 ? world.high.z : world.low.z}));
+  for (int k = 0; k < 3; ++k) {
+    box.at(Variable::Position, k) = roomy(component(world.low, k), component(world.high, k));
+    box.at(Variable::ObjectPosition, k) = roomy(component(local.low, k), component(local.high, k));
+    for (const Variable v : {Variable::ObjectTangent, Variable::ObjectBitangent,
+                             Variable::NormalTangent, Variable::NormalBitangent})
+      box.at(v, k) = {-kInf, kInf, false};
+  }
+  // The parameters of a mesh are its author's.
+  if (std::holds_alternative<Mesh>(o.shape))
+    for (int k = 0; k < 2; ++k) box.at(Variable::Uv, k) = {-kInf, kInf, false};
+  return box;
+}
+
+double largest_extinction(const vm::Program& program, const vm::Descriptor& d, const Object& o) {
+  vm::BoundsMachine machine(program);
+  const vm::Entry& entry = d.pass;
+  constexpr std::array outputs = {vm::Output::Scattering, vm::Output::Absorption};
+  return largest(box_of(o), positions_read(d, outputs), [&](const vm::Box& part) {
+    vm::Enclosure e;
+    if (entry.function) e = machine.run(*entry.function, part);
+    const auto most = [&](const vm::ValueSource& v) {
+      const Interval i =
+          v.constant ? vm::interval_of(program.constants[v.index]) : e.results[v.index];
+      return std::max(i.hi, 0.0);  // negative coefficients count as 0
+    };
+    return vm::float_above(most(entry.scattering) + most(entry.absorption));
+  });
+}
+
+double largest_height(const vm::Program& program, const vm::Descriptor& d, const Object& o) {
+  vm::BoundsMachine machine(program);
+  constexpr std::array outputs = {vm::Output::Height};
+  return largest(box_of(o), positions_read(d, outputs), [&](const vm::Box& part) {
+    return vm::enclose(machine, program, d.displace, d.displace.height, part).hi;
+  });
+}
+
+}  // namespace mms::renderer

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// What is certain of an object's script without running it at points: enclosures over the box
+/// around its shape (vm/bounds.h).
+
+#include "renderer/scene.h"
+#include "vm/bounds.h"
+
+namespace mms::renderer {
+
+/// What a script can be told of any point in the box around `o`, or on its surface.
+vm::Box box_of(const Object& o);
+
+/// The largest scattering + absorption of the volume `d` at any wavelength anywhere in `o`, 1/m:
+/// the largest over a grid of kMajorantCells^3 boxes. Infinite where none is found.
+double largest_extinction(const vm::Program& program, const vm::Descriptor& d, const Object& o);
+inline constexpr int kMajorantCells = 16;
+
+/// The largest `height` of the surface `d` anywhere on `o`, m: what its `bound` is where the author
+/// states none. Infinite where none is found.
+double largest_height(const vm::Program& program, const vm::Descriptor& d, const Object& o);
+
+}  // namespace mms::renderer

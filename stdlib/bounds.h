@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// The interval column of the rows: what each function returns over a box of its arguments (see
+/// vm::RowBounds for the contract). Compiled once, for any processor; the rows of every instruction
+/// set point to the same functions.
+
+#include "vm/builtin.h"
+
+namespace mms::stdlib::bounds {
+
+using Function = void(const vm::Interval* in, vm::Interval* out);
+
+Function sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh;
+Function asinh, acosh, atanh;
+Function exp, exp2, expm1, log, log2, log10, log1p, pow, powi, sqrt, cbrt, hypot;
+Function fmod, floor, ceil, trunc, round, fract, abs, sign, min, max, clamp;
+Function abs_integer, sign_integer, min_integer, max_integer, clamp_integer;
+
+Function complex_exp, complex_log, complex_sqrt, complex_sin, complex_cos, complex_tan;
+Function complex_sinh, complex_cosh, complex_tanh, complex_pow, complex_powi, complex_abs;
+Function complex_asin, complex_acos, complex_atan, complex_asinh, complex_acosh, complex_atanh;
+Function conj, arg, re, im, polar;
+
+Function perlin1, perlin2, perlin3, perlin4;
+Function perlin_gradient1, perlin_gradient2, perlin_gradient3, perlin_gradient4;
+Function perlin_derivative1, perlin_derivative2, perlin_derivative3, perlin_derivative4;
+Function hash1, hash2, hash3, hash4, cells1, cells2, cells3, cells4;
+Function worley2, worley3, worley_pair2, worley_pair3;
+
+Function planck, illuminant_d65, illuminant_a, sellmeier, cauchy, fresnel, fresnel_conductor;
+Function gold_n, gold_k, silver_n, silver_k, copper_n, copper_k, aluminium_n, aluminium_k;
+Function illuminant_d65_slope, illuminant_a_slope;
+Function gold_n_slope, gold_k_slope, silver_n_slope, silver_k_slope;
+Function copper_n_slope, copper_k_slope, aluminium_n_slope, aluminium_k_slope;
+
+}  // namespace mms::stdlib::bounds

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Functions of the library written in the language itself, where their derivative is taken from.
+
+/// What `sellmeier` computes.
+/// >>> sellmeier_formula(550e-9, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+/// 1
+real sellmeier_formula(real wavelength, b1, c1, b2, c2, b3, c3)
+    um = wavelength * 1e6;
+    l2 = um * um;
+    n2 = 1.0 + b1 * l2 / (l2 - c1) + b2 * l2 / (l2 - c2) + b3 * l2 / (l2 - c3);
+    return select sqrt(n2), if n2 > 0.0; 1.0 otherwise; end;
+
+/// What `fresnel` computes.
+/// >>> abs(fresnel_formula(1.0, 1.5) - 0.04) < 1e-6
+/// true
+real fresnel_formula(real cos_theta, ior)
+    c  = min(abs(cos_theta), 1.0);
+    e  = (ior - 1.0) * (ior + 1.0);
+    g2 = c * c + e;
+    g  = sqrt(g2);
+    s  = c + g;
+    p  = ior * ior * c + g;
+    rs = e / (s * s);
+    rp = e * ((ior * ior + 1.0) * c * c - 1.0) / (p * p);
+    return select 1.0, if g2 <= 0.0; 0.5 * (rs * rs + rp * rp) otherwise; end;
+
+/// What `fresnel_conductor` computes.
+/// >>> abs(fresnel_conductor_formula(1.0, 1.0, 2.0) - 0.5) < 1e-6
+/// true
+real fresnel_conductor_formula(real cos_theta, n, k)
+    c          = min(abs(cos_theta), 1.0);
+    s2         = (1.0 - c) * (1.0 + c);
+    t          = (n - k) * (n + k) - s2;
+    nk         = n * k;
+    q          = sqrt(t * t + 4.0 * nk * nk);
+    a          = select sqrt(0.5 * (q + t)), if t >= 0.0; nk / sqrt(0.5 * (q - t)) otherwise; end;
+    ac         = a * c;
+    m          = n * n + k * k;
+    p          = ac * (q + s2);
+    absorbed_s = 4.0 * ac / (q + c * c + 2.0 * ac);
+    absorbed_p = 4.0 * p / (c * c * m * m + 2.0 * p + q);
+    return 1.0 - 0.5 * (absorbed_s + absorbed_p);
