@@ -1,50 +1,167 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/film.h"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace mms::renderer {
 namespace {
 
-constexpr double kLargest = 0x1p32;
-constexpr double kValueUnit = 0x1p64, kSquareUnit = 0x1p48;
+constexpr double kValueUnit = 0x1p40;   // of one sample; times a weight it is 2^64
+constexpr double kWeightUnit = 0x1p24;  // two axes of Filter::kBits
+constexpr double kSumUnit = 0x1p64;
+static_assert(kWeightUnit == double(1 << 2 * Filter::kBits));
 
-double to_double(Int128 sum, double unit) { return double(sum) / unit; }
+/// Squares of what is brighter would not fit: 2^38 in units of 2^-64 is 2^102 and leaves room for
+/// 2^25 samples.
+constexpr double kLargestForVariance = 0x1p19;
 
-}  // namespace
+/// As many pixels tell the error of a picture to better than one part in a hundred.
+constexpr double kProbes = 0x1p18;
 
-SampleFate add_sample(PixelSums& sums, const std::array<double, 3>& xyz) {
-  ++sums.samples;
+int stride_of(int width, int height) {
+  return std::max(1, int(std::ceil(std::sqrt(double(width) * height / kProbes))));
+}
+
+SampleFate fate_of(const std::array<double, 3>& xyz) {
   for (double v : xyz) {
     if (std::isnan(v)) return SampleFate::NotANumber;
     if (std::isinf(v)) return SampleFate::Infinite;
-    if (!(std::abs(v) < kLargest)) return SampleFate::Overflow;
+    if (!(std::abs(v) < kLargestSample)) return SampleFate::Overflow;
   }
-  PixelSums next = sums;
-  bool overflow = false;
-  for (int i = 0; i < 3; ++i)
-    overflow |= __builtin_add_overflow(sums.xyz[i], Int128(xyz[i] * kValueUnit), &next.xyz[i]);
-  overflow |= __builtin_add_overflow(sums.luminance_square, Int128(xyz[1] * xyz[1] * kSquareUnit),
-                                     &next.luminance_square);
-  if (overflow) return SampleFate::Overflow;
-  sums = next;
   return SampleFate::Added;
 }
 
+/// The pixels whose centre is within `radius` of `at`: the first, and the one after the last.
+struct Reach {
+  int begin, end;
+};
+Reach reach(double at, double radius, int low, int high) {
+  return {std::max(low, int(std::floor(at - 0.5 - radius)) + 1),
+          std::min(high, int(std::floor(at - 0.5 + radius)) + 1)};
+}
+
+}  // namespace
+
+FilmSums::FilmSums(int width, int height, FilterShape filter, Rect rect)
+    : width_(width),
+      height_(height),
+      stride_(stride_of(width, height)),
+      shape_(filter),
+      filter_(filter) {
+  restart(rect);
+}
+
+void FilmSums::restart(Rect rect) {
+  rect_ = rect;
+  pixels_.assign(rect.area(), {});
+  for (auto& b : blocks_) b.clear();
+  first_across_ = (rect.x0 + stride_ - 1) / stride_;
+  first_down_ = (rect.y0 + stride_ - 1) / stride_;
+  across_ = (rect.x1 + stride_ - 1) / stride_ - first_across_;
+  down_ = (rect.y1 + stride_ - 1) / stride_ - first_down_;
+}
+
+std::vector<BlockSums>& FilmSums::open_block(int b) {
+  if (b >= int(blocks_.size())) blocks_.resize(std::size_t(b) + 1);
+  if (blocks_[b].empty()) blocks_[b].resize(std::size_t(across_) * std::size_t(down_));
+  return blocks_[b];
+}
+
+SampleFate FilmSums::add(const FilmSample& s) {
+  const SampleFate fate = fate_of(s.xyz);
+  Int128 xyz[3] = {0, 0, 0}, y = 0, square = 0;
+  if (fate == SampleFate::Added) {
+    for (int i = 0; i < 3; ++i) xyz[i] = Int128(s.xyz[i] * kValueUnit);
+    const double cut = std::clamp(s.xyz[1], -kLargestForVariance, kLargestForVariance);
+    y = Int128(cut * kValueUnit);
+    square = Int128(cut * cut * kValueUnit);
+  }
+  spread(y, square, xyz, s);
+  const int column = int(std::floor(s.x)), row = int(std::floor(s.y));
+  if (rect_.has(column, row)) {
+    PixelSums& home = pixels_[index(column, row)];
+    ++home.samples;
+    home.dropped += fate != SampleFate::Added;
+  }
+  return fate;
+}
+
+void FilmSums::spread(Int128 y, Int128 square, const Int128 (&xyz)[3], const FilmSample& s) {
+  std::vector<BlockSums>& block = open_block(block_of(s.number));
+  const Reach columns = reach(s.x, filter_.radius(), rect_.x0, rect_.x1);
+  const Reach rows = reach(s.y, filter_.radius(), rect_.y0, rect_.y1);
+  for (int row = rows.begin; row < rows.end; ++row) {
+    const std::int64_t vertical = filter_.weight(std::abs(row + 0.5 - s.y));
+    for (int column = columns.begin; column < columns.end; ++column) {
+      const std::int64_t w = vertical * filter_.weight(std::abs(column + 0.5 - s.x));
+      PixelSums& p = pixels_[index(column, row)];
+      for (int i = 0; i < 3; ++i) p.xyz[i] += xyz[i] * w;
+      p.luminance_square += square * w;
+      p.weight += w;
+      if (stride_ > 1 && (column % stride_ != 0 || row % stride_ != 0)) continue;
+      BlockSums& b = block[std::size_t(row / stride_ - first_down_) * std::size_t(across_) +
+                           std::size_t(column / stride_ - first_across_)];
+      b.y += y * w;
+      b.weight += w;
+    }
+  }
+}
+
+void FilmSums::merge(const FilmSums& part) {
+  assert(part.width_ == width_ && part.height_ == height_ && part.shape_ == shape_);
+  const Rect& r = part.rect_;
+  const PixelSums* from = part.pixels_.data();
+  for (int y = r.y0; y < r.y1; ++y)
+    for (int x = r.x0; x < r.x1; ++x, ++from) {
+      PixelSums& to = pixels_[index(x, y)];
+      for (int i = 0; i < 3; ++i) to.xyz[i] += from->xyz[i];
+      to.luminance_square += from->luminance_square;
+      to.weight += from->weight;
+      to.samples += from->samples;
+      to.dropped += from->dropped;
+    }
+  for (int b = 0; b < int(part.blocks_.size()); ++b) {
+    if (part.blocks_[b].empty()) continue;
+    std::vector<BlockSums>& block = open_block(b);
+    for (int y = 0; y < part.down_; ++y)
+      for (int x = 0; x < part.across_; ++x) {
+        const BlockSums& f =
+            part.blocks_[b][std::size_t(y) * std::size_t(part.across_) + std::size_t(x)];
+        BlockSums& to =
+            block[std::size_t(y + part.first_down_ - first_down_) * std::size_t(across_) +
+                  std::size_t(x + part.first_across_ - first_across_)];
+        to.y += f.y;
+        to.weight += f.weight;
+      }
+  }
+}
+
+double FilmSums::samples_seen(const PixelSums& p) const {
+  return double(p.weight) / kWeightUnit / filter_.integral();
+}
+
+double FilmSums::variance(const PixelSums& p) const {
+  if (p.weight <= 0) return 0;
+  const double weight = double(p.weight) / kWeightUnit;
+  const double mean = double(p.xyz[1]) / kSumUnit / weight;
+  const double scatter = double(p.luminance_square) / kSumUnit / weight - mean * mean;
+  // A pixel makes use of the samples that it shares with its neighbours, too.
+  const double n = samples_seen(p) * filter_.sharing();
+  return n > 1 && p.samples > 1 ? std::max(0.0, scatter) / (n - 1) : 0;
+}
+
 Film FilmSums::develop() const {
-  Film film{width_, height_, {}, {}};
+  Film film{rect_.width(), rect_.y1 - rect_.y0, {}, {}};
   film.xyz.reserve(pixels_.size());
   film.variance.reserve(pixels_.size());
   for (const PixelSums& p : pixels_) {
-    const double n = p.samples > 0 ? p.samples : 1;
+    const double weight = p.weight > 0 ? double(p.weight) / kWeightUnit : 1;
     std::array<double, 3> mean{};
-    for (int i = 0; i < 3; ++i) mean[i] = to_double(p.xyz[i], kValueUnit) / n;
+    for (int i = 0; i < 3; ++i) mean[i] = double(p.xyz[i]) / kSumUnit / weight;
     film.xyz.push_back(mean);
-    // The two terms cancel, so the difference is taken in the fixed point of the sums' square:
-    // sum((y - mean)^2) = sum(y^2) - n mean^2, exact to 2^-53 of sum(y^2).
-    const double sum_square = to_double(p.luminance_square, kSquareUnit);
-    const double spread = std::max(0.0, sum_square - n * mean[1] * mean[1]);
-    film.variance.push_back(p.samples > 1 ? spread / (n - 1) / n : 0.0);
+    film.variance.push_back(variance(p));
   }
   return film;
 }

@@ -2,47 +2,124 @@
 #pragma once
 
 /// \file
-/// Sums of samples in 128-bit fixed point: the same bits whatever the order of threads.
+/// The picture under way. Samples are points of the image function (thesis 2.3): a place on the
+/// film and CIE XYZ, bound to no pixel; a filter spreads each over the pixels around it. All sums
+/// are whole numbers in 128 bits, so they have the same bits whatever the order of samples, the
+/// number of threads and the parts that a picture was made in.
 
 #include <array>
 #include <cstdint>
-#include <mutex>
+#include <span>
 #include <vector>
 
+#include "renderer/filter.h"
 #include "renderer/render.h"
 
 namespace mms::renderer {
 
 __extension__ using Int128 = __int128;
 
-/// A sum of values in units of 2^-64 and of squares in units of 2^-48. Values must be below 2^32
-/// in magnitude, so 2^15 of the largest squares, or any real picture, fit.
-struct PixelSums {
-  Int128 xyz[3] = {0, 0, 0};
-  Int128 luminance_square = 0;
-  std::uint32_t samples = 0;
+/// One point of the stream that an integrator makes.
+struct FilmSample {
+  double x = 0, y = 0;       ///< pixels from the top left corner
+  std::uint32_t number = 0;  ///< of the sample in its pixel
+  std::array<double, 3> xyz{};
 };
 
-/// Adds one sample; what was wrong with it, if it could not be added.
+/// What was wrong with a sample, if it could not be added; then it counts as black.
 enum class SampleFate : std::uint8_t { Added, NotANumber, Infinite, Overflow };
-SampleFate add_sample(PixelSums& sums, const std::array<double, 3>& xyz);
 
-/// The picture under way. A dropped sample still counts as one (of radiance zero).
+/// Values of samples, from here on, are refused.
+inline constexpr double kLargestSample = 0x1p32;
+
+/// Pixels [x0, x1) x [y0, y1).
+struct Rect {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  std::size_t area() const { return std::size_t(x1 - x0) * std::size_t(y1 - y0); }
+  bool has(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
+  bool operator==(const Rect&) const = default;
+};
+
+/// Sums for one pixel. Values are multiples of 2^-40, weights of 2^-24, so products are of 2^-64:
+/// below 2^32 each, 2^31 of the largest fit.
+struct PixelSums {
+  Int128 xyz[3] = {0, 0, 0};    ///< of weight times value, in 2^-64
+  Int128 luminance_square = 0;  ///< of weight times Y^2, in 2^-64; |Y| is cut at 2^19 for it
+  std::int64_t weight = 0;      ///< in 2^-24
+  std::uint32_t samples = 0;    ///< that fell into the pixel
+  std::uint32_t dropped = 0;    ///< of them, those that were not added
+  bool operator==(const PixelSums&) const = default;
+};
+
+/// Luminance alone, of samples with numbers in one range.
+struct BlockSums {
+  Int128 y = 0;  ///< in 2^-64, cut like the squares
+  std::int64_t weight = 0;
+  bool operator==(const BlockSums&) const = default;
+};
+
+/// The block that sample `number` belongs to: [0, 4), [4, 8), [8, 16), [16, 32) ... The blocks
+/// before one have together as many samples as it has, and like it are a net of the sequence.
+constexpr int block_of(std::uint32_t number) { return number < 4 ? 0 : 30 - __builtin_clz(number); }
+/// First number after block `block`.
+constexpr std::uint32_t block_end(int block) { return 4u << block; }
+
+/// Sums over a picture or over a part of it.
 class FilmSums {
  public:
-  FilmSums(int width, int height)
-      : width_(width), height_(height), pixels_(std::size_t(width) * height) {}
+  FilmSums(int width, int height, FilterShape filter)
+      : FilmSums(width, height, filter, {0, 0, width, height}) {}
+  /// Pixels of `rect` of a picture of width x height.
+  FilmSums(int width, int height, FilterShape filter, Rect rect);
+
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Not locked: a caller adds to pixels that no other thread adds to at the same time.
-  PixelSums& pixel(int x, int y) { return pixels_[std::size_t(y) * width_ + x]; }
-  const PixelSums& pixel(int x, int y) const { return pixels_[std::size_t(y) * width_ + x]; }
+  FilterShape filter() const { return shape_; }
+  const Rect& rect() const { return rect_; }
 
+  /// Makes all sums zero, over other pixels of the same picture.
+  void restart(Rect rect);
+  /// Spreads a sample over the pixels of the rect that it reaches. Not locked.
+  SampleFate add(const FilmSample& sample);
+  /// Adds what a part has gathered; `part` lies within this.
+  void merge(const FilmSums& part);
+
+  const PixelSums& pixel(int x, int y) const { return pixels_[index(x, y)]; }
+  std::span<const PixelSums> pixels() const { return pixels_; }
+
+  /// How many samples the filter lets the pixel see: about those that fell into it.
+  double samples_seen(const PixelSums& p) const;
+  /// Variance of the mean luminance, were the samples independent; 0 below two samples.
+  double variance(const PixelSums& p) const;
+
+  /// Luminance is summed by blocks at pixels whose x and y are multiples of this: enough pixels to
+  /// know the error of a large picture by.
+  int probe_stride() const { return stride_; }
+  /// Probes of the picture, row by row, or nothing where no sample of the block came.
+  std::span<const BlockSums> block(int b) const {
+    return b < int(blocks_.size()) ? std::span<const BlockSums>(blocks_[b])
+                                   : std::span<const BlockSums>();
+  }
+  int probes_across() const { return across_; }
+
+  /// Means, and the variance of each by the scatter of its samples as if they were independent.
   Film develop() const;
 
  private:
-  int width_, height_;
+  std::size_t index(int x, int y) const {
+    return std::size_t(y - rect_.y0) * std::size_t(rect_.width()) + std::size_t(x - rect_.x0);
+  }
+  void spread(Int128 y, Int128 square, const Int128 (&xyz)[3], const FilmSample& s);
+  std::vector<BlockSums>& open_block(int b);
+
+  int width_, height_, stride_;
+  FilterShape shape_;
+  Filter filter_;
+  Rect rect_;
+  int first_across_ = 0, first_down_ = 0, across_ = 0, down_ = 0;  ///< probes in the rect
   std::vector<PixelSums> pixels_;
+  std::vector<std::vector<BlockSums>> blocks_;
 };
 
 }  // namespace mms::renderer

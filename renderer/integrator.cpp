@@ -23,9 +23,6 @@ constexpr int kFirstRoulette = 3;
 /// what it is again outside, so a path that carries a third may have lost nothing.
 constexpr float kSafeContribution = 1.0f / 3;
 
-/// The tent filter of one pixel's radius, by warping the sample's place in the pixel.
-double tent(double u) { return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u)); }
-
 /// `matte`: what a surface of the scene scatters by, and the default of a script that gave up.
 const materials::Layout& matte_layout() {
   static const materials::Layout layout(
@@ -88,8 +85,8 @@ struct Integrator::Scatterer {
 Integrator::Integrator(const World& world)
     : world_(world), scripts_(world.compiled), flights_(world, scripts_) {}
 
-void Integrator::trace(std::span<const PixelSample> samples, std::span<std::array<double, 3>> xyz) {
-  start(samples);
+void Integrator::trace(std::span<const PixelSample> samples, std::span<FilmSample> stream) {
+  start(samples, stream);
   while (!now_.empty()) {
     flights_.fly(now_, views_);
     gather();
@@ -106,11 +103,11 @@ void Integrator::trace(std::span<const PixelSample> samples, std::span<std::arra
     std::swap(now_, next_);
   }
   for (std::size_t i = 0; i < samples.size(); ++i)
-    xyz[i] = paths_[i].cluster.xyz(paths_[i].radiance);
+    stream[i].xyz = paths_[i].cluster.xyz(paths_[i].radiance);
 }
 
 /// Draws wavelengths and camera rays.
-void Integrator::start(std::span<const PixelSample> samples) {
+void Integrator::start(std::span<const PixelSample> samples, std::span<FilmSample> stream) {
   paths_.assign(samples.size(), {});
   views_.clear();
   now_.clear();
@@ -119,9 +116,11 @@ void Integrator::start(std::span<const PixelSample> samples) {
     Path& p = paths_[i];
     p.sampler = Sampler(world_.seed, s.x, s.y, std::uint64_t(s.sample));
     p.cluster = sample_cluster(p.sampler(kWavelength));
-    const CameraRay ray =
-        world_.camera.at(s.x + 0.5 + tent(p.sampler(kFilmX)), s.y + 0.5 + tent(p.sampler(kFilmY)),
-                         p.sampler(kLensU), p.sampler(kLensV));
+    FilmSample& point = stream[i];
+    point.x = s.x + double(p.sampler(kFilmX));
+    point.y = s.y + double(p.sampler(kFilmY));
+    point.number = std::uint32_t(s.sample);
+    const CameraRay ray = world_.camera.at(point.x, point.y, p.sampler(kLensU), p.sampler(kLensV));
     views_.push_back({&p.cluster, &p.sampler, &p.radiance, world_.camera.pixel_angle()});
     Flight f;
     f.origin = ray.origin;

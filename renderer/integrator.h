@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "renderer/film.h"
 #include "renderer/flight.h"
 
 namespace mms::renderer {
@@ -20,9 +21,9 @@ class Integrator {
  public:
   explicit Integrator(const World& world);
 
-  /// Estimates the picture at each sample: CIE XYZ. A sample's value does not depend on the
-  /// company it is traced in.
-  void trace(std::span<const PixelSample> samples, std::span<std::array<double, 3>> xyz);
+  /// Estimates the picture at a point of each sample's pixel, all of the pixel with equal density.
+  /// A sample's value does not depend on the company it is traced in.
+  void trace(std::span<const PixelSample> samples, std::span<FilmSample> stream);
 
   const Scripts& scripts() const { return scripts_; }
   const FlightCounters& counters() const { return flights_.counters(); }
@@ -49,7 +50,7 @@ class Integrator {
     LightSample light;
   };
 
-  void start(std::span<const PixelSample> samples);
+  void start(std::span<const PixelSample> samples, std::span<FilmSample> stream);
   void gather();
   void shade(std::span<const Vertex> group);
   void scatter(const Vertex& v, const Scatterer& s);

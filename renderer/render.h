@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "renderer/filter.h"
 #include "vm/program.h"
 
 namespace mms::renderer {
@@ -53,14 +54,30 @@ struct Progress {
   int samples = 0;          ///< samples a pixel done everywhere
   double seconds = 0;       ///< since rendering began
   double seconds_left = 0;  ///< estimated
+  double error = 0;         ///< as Report::rmse; 0 where it is not known yet
 };
+
+struct PartialFilm;  // renderer/samples.h
+
+/// Samples of a pixel that a render may have: sums have room for them.
+inline constexpr int kMostSamples = 1 << 24;
 
 struct RenderOptions {
   int width = 512, height = 512;  ///< pixels, each in [1, 32768]
-  int samples = 64;               ///< for each pixel, at least 1
+  int first_sample = 0;           ///< numbers of the samples of each pixel: from this one
+  int samples = 64;               ///< to this one, which is left out; at most kMostSamples
+  double seconds = 0;             ///< ends soon after as many, if above 0
+  double error = 0;               ///< ends when Report::rmse is no larger, if above 0
   int threads = 0;                ///< 0: as many as the machine has
   std::uint64_t seed = 0;
   int max_depth = 64;  ///< scattering events of a path, at least 1
+  FilterShape filter = FilterShape::BlackmanHarris;
+  /// What is there already, of the same scene and options: only other samples are made. May be
+  /// null.
+  std::shared_ptr<const PartialFilm> begin_with;
+  /// Called every `save_seconds` with what is there, from the thread that called `render`.
+  std::function<void(const PartialFilm&)> save;
+  double save_seconds = 60;
   /// Called from one thread at a time, at most ten times a second, and once at the end.
   std::function<void(const Progress&)> progress;
   /// When it becomes true, rendering ends soon with what is there. May be null.
@@ -87,7 +104,7 @@ struct Report {
   double seconds = 0;  ///< of rendering, without loading
   int threads = 0;
   /// Root mean square, over all pixels, of the standard error of a pixel's linear luminance
-  /// (1 is display white), from the variance of its samples. 0 below two samples.
+  /// (1 is display white): renderer/error.h. 0 below two samples.
   double rmse = 0;
 
   std::uint64_t paths = 0;
@@ -108,6 +125,7 @@ struct Report {
   std::vector<FaultCount> faults;  ///< by number, largest first
   std::uint64_t fault_lanes = 0;
   bool stopped = false;          ///< `stop` ended it early
+  bool error_reached = false;    ///< `error` ended it
   bool too_many_faults = false;  ///< more than `kMaxFaultLanes` ended it early
 };
 
@@ -127,6 +145,7 @@ struct Film {
 struct Rendered {
   Film film;
   Report report;
+  std::shared_ptr<const PartialFilm> sums;  ///< what the film was developed from
 };
 
 /// Renders; the error's `where` is the source line where the probe faulted, or the option.

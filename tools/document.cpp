@@ -199,6 +199,7 @@ An output:
 | `spectral` | whether it depends on the wavelength |
 | `reads` | the variables it depends on |
 | `material`, `reciprocal`, `lobes` | of materials: the tree of models and combiners; whether it reads nothing of the ray; each node's `name` and `traits`: `reflects`, `transmits`, `specular`, `polished` (specular where its roughness says so), `dispersive`, `combiner`, `phase` |
+| `largest_weight` | of a material: the most that its weights can add up to, as proven over the unit sphere (`mms bounds`); not there where nothing is proven |
 
 An entry, or zeros where all its values are constants and nothing is run:
 

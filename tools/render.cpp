@@ -3,6 +3,7 @@
 #include "tools/render.h"
 
 #include <charconv>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -42,11 +43,44 @@ std::optional<Error> read_size(RenderRequest& r) {
   return read("--size", r.size.substr(x + 1), 1, 32768, r.height, kHint);
 }
 
+/// Reads a number above 0; leaves `value` alone where the option is not given.
+std::optional<Error> read_positive(const char* option, const std::string& text, double& value,
+                                   const char* hint) {
+  if (text.empty()) return std::nullopt;
+  const auto n = number<double>(text);
+  if (!n || !(*n > 0) || !std::isfinite(*n))
+    return Error{option, fmt::format("`{}` is not a number above 0", text), hint};
+  value = *n;
+  return std::nullopt;
+}
+
+/// When to end: `--samples N` or `A:B`, `--time`, `--error`. The last two are waited for with as
+/// many samples as it takes, unless told otherwise.
+std::optional<Error> read_limits(RenderRequest& r) {
+  constexpr int kMost = 1 << 24;
+  constexpr const char* kHint =
+      "samples for each pixel: 16 for a glance, 256 for a clean picture; 0:64 or 64:128 for a part";
+  if (auto e = read_positive("--time", r.time, r.seconds, "seconds of rendering, as in --time 60"))
+    return e;
+  if (auto e = read_positive("--error", r.error, r.error_limit,
+                             "the error to reach, where 1 is display white: 0.01 is clean"))
+    return e;
+  if (r.samples.empty()) {
+    r.end_sample = r.seconds > 0 || r.error_limit > 0 ? kMost : 64;
+    return std::nullopt;
+  }
+  const std::size_t colon = r.samples.find(':');
+  if (colon == std::string::npos)
+    return read("--samples", r.samples, 1, kMost, r.end_sample, kHint);
+  if (auto e = read("--samples", r.samples.substr(0, colon), 0, kMost - 1, r.first_sample, kHint))
+    return e;
+  return read("--samples", r.samples.substr(colon + 1), r.first_sample + 1, kMost, r.end_sample,
+              kHint);
+}
+
 std::optional<Error> read_numbers(RenderRequest& r) {
   if (auto e = read_size(r)) return e;
-  if (auto e = read("--samples", r.samples, 1, 1 << 24, r.sample_count,
-                    "samples for each pixel: 16 for a glance, 256 for a clean picture"))
-    return e;
+  if (auto e = read_limits(r)) return e;
   if (auto e = read("--threads", r.threads, 0, 4096, r.thread_count,
                     "0 takes as many threads as the machine has"))
     return e;
@@ -73,7 +107,14 @@ Exit render(RenderRequest request) {
 void add_picture_options(Verb& verb, RenderRequest& r) {
   verb.add({"-o,--output", &r.output, "PATH",
             "Picture (.png or .exr), or a folder for NAME.png of each script"});
-  verb.add({"--samples", &r.samples, "N", "Samples for each pixel [64]"});
+  verb.add({"--samples", &r.samples, "N|A:B", "Samples for each pixel [64], or their numbers"});
+  verb.add({"--time", &r.time, "SECONDS", "End after so long"});
+  verb.add({"--error", &r.error, "E", "End when the estimated error is no larger; 1 is white"});
+  verb.add({"--filter",
+            &r.filter,
+            "NAME",
+            "box, gaussian or blackman-harris [blackman-harris]",
+            {"box", "gaussian", "blackman-harris"}});
   verb.add({"--size", &r.size, "WxH", "Width and height in pixels [512x512]"});
   verb.add(
       {"--scene", &r.scene, "NAME|FILE", "A built-in scene, or a scene file (.json) [sphere]"});
@@ -95,6 +136,7 @@ Verb render_verb() {
             "Render scripts to pictures of a test object",
             "Ctrl-C stops, writes what is there, and ends with code 130.\n\nExamples:\n"
             "  mms render marble.mms\n  mms render marble.mms -o marble.exr --samples 256\n"
+            "  mms render marble.mms --error 0.01 --time 60\n"
             "  mms render examples/*.mms -o out/ --size 256x256\n"
             "  mms render --set scale=8 --surface marble marble.mms --report",
             {},

@@ -15,8 +15,10 @@ struct RenderRequest : ScriptOptions {
   std::string output;  ///< as given; empty, a file, or a folder
   std::string size = "512x512";
   int width = 512, height = 512;  ///< from `size`
-  std::string samples = "64", threads = "0", max_depth = "64", seed = "0", exposure = "0";
-  int sample_count = 64, thread_count = 0, depth = 64;
+  std::string samples, threads = "0", max_depth = "64", seed = "0", exposure = "0";
+  std::string time, error, filter = "blackman-harris";
+  int first_sample = 0, end_sample = 64, thread_count = 0, depth = 64;
+  double seconds = 0, error_limit = 0;  ///< 0 is none
   std::uint64_t seed_number = 0;
   double stops = 0;
   std::string scene = "sphere", surface, volume;

@@ -74,8 +74,9 @@ class ProgressLine {
 
   void show(const renderer::Progress& p) const {
     if (!shown_) return;
-    fmt::print(stderr, "\r{}: {:3.0f}% {:.0f} s, {:.0f} s left\x1b[K", name_, 100 * p.fraction,
-               p.seconds, p.seconds_left);
+    const std::string error = p.error > 0 ? fmt::format(", error {:.2g}", p.error) : "";
+    fmt::print(stderr, "\r{}: {:3.0f}% {} samples{}, {:.0f} s, {:.0f} s left\x1b[K", name_,
+               100 * p.fraction, p.samples, error, p.seconds, p.seconds_left);
     std::fflush(stderr);
   }
 
@@ -147,7 +148,11 @@ renderer::RenderOptions render_options(const RenderRequest& request) {
   renderer::RenderOptions options;
   options.width = request.width;
   options.height = request.height;
-  options.samples = request.sample_count;
+  options.first_sample = request.first_sample;
+  options.samples = request.end_sample;
+  options.seconds = request.seconds;
+  options.error = request.error_limit;
+  options.filter = *renderer::filter_named(request.filter);
   options.threads = request.thread_count;
   options.seed = request.seed_number;
   options.max_depth = request.depth;

@@ -19,7 +19,7 @@ const std::vector<Library>& third_party() {
       {"Embree", "embree", true},    {"OpenImageIO", "OpenImageIO/", true},
       {"oneTBB", "tbb/", true},      {"oneTBB", "oneapi/", true},
       {"Assimp", "assimp/", true},   {"nlohmann", "nlohmann/", false},
-      {"CLI11", "CLI/", true},      {"fmt", "fmt/", false},
+      {"CLI11", "CLI/", true},       {"fmt", "fmt/", false},
       {"doctest", "doctest", false}, {"Google Benchmark", "benchmark/", false},
   };
   return all;

@@ -238,7 +238,8 @@ TEST_CASE("lattice vectors of neighbours are independent") {
   }
 }
 
-TEST_CASE("cellnoise is constant in a cell, hash tells neighbours apart, -0 is 0, a NaN any other") {
+TEST_CASE(
+    "cellnoise is constant in a cell, hash tells neighbours apart, -0 is 0, a NaN any other") {
   const vm::Builtin& cells = find("real cellnoise(real[3] p)");
   CHECK(call<float>(cells, 3.0f, -2.0f, 7.0f) == call<float>(cells, 3.99f, -1.01f, 7.5f));
   CHECK(call<float>(cells, 3.0f, -2.0f, 7.0f) != call<float>(cells, 3.0f, -2.01f, 7.0f));

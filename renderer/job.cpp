@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/job.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+#include <tuple>
+
+#include "renderer/error.h"
+#include "renderer/prepare.h"
+
+namespace mms::renderer {
+namespace {
+
+/// Between two estimates of the error for those who watch: each takes some milliseconds.
+constexpr double kSecondsOfError = 1;
+
+/// The error is asked for the first time after as many samples: two differences are known then.
+constexpr std::uint32_t kFirstAsked = 16;
+
+/// Where the error is asked for again: four times in each doubling.
+std::uint32_t asked_after(std::uint32_t samples) {
+  if (samples < kFirstAsked) return kFirstAsked;
+  const std::uint32_t octave = std::uint32_t(1) << (31 - __builtin_clz(samples));
+  return samples + std::max(8u, octave / 4);
+}
+
+/// `tile`, and the pixels around it that its samples reach.
+Rect reached(const FilmSums& film, Rect tile) {
+  const int margin = int(std::ceil(Filter(film.filter()).radius() - 0.5));
+  return {std::max(0, tile.x0 - margin), std::max(0, tile.y0 - margin),
+          std::min(film.width(), tile.x1 + margin), std::min(film.height(), tile.y1 + margin)};
+}
+
+}  // namespace
+
+Job::Job(const World& world, const RenderOptions& options)
+    : world_(world),
+      options_(options),
+      film_(options.begin_with
+                ? std::make_shared<PartialFilm>(*options.begin_with)
+                : std::make_shared<PartialFilm>(options.width, options.height, options.filter)) {
+  first_pass_ = pass_of(std::uint32_t(options.first_sample));
+  const int last_pass = pass_of(std::uint32_t(options.samples - 1));
+  chunks_ = std::int64_t(last_pass + 1 - first_pass_) * std::int64_t(film_->done.size());
+  for (int t = 0; t < int(film_->done.size()); ++t) {
+    SampleSet all = film_->done[t];
+    all.add({std::uint32_t(options.first_sample), std::uint32_t(options.samples)});
+    paths_asked_ += (all.count() - film_->done[t].count()) * film_->tile(t).area();
+  }
+  round_end_ = options.error > 0 ? 0 : chunks_;
+}
+
+Rendered Job::run() {
+  begin_ = Clock::now();
+  const int machine = int(std::max(1u, std::thread::hardware_concurrency()));
+  const int wanted = options_.threads > 0 ? options_.threads : machine;
+  const int threads = int(std::min<std::int64_t>(wanted, chunks_));
+  {
+    std::vector<std::jthread> workers;
+    running_ = threads;
+    for (int i = 0; i < threads; ++i) workers.emplace_back([this] { work(); });
+    watch();
+  }
+  report_.seconds = seconds();
+  report_.threads = threads;
+  return finish();
+}
+
+bool Job::out_of_time() const { return options_.seconds > 0 && seconds() >= options_.seconds; }
+
+bool Job::ended() const {
+  return too_many_faults_ || good_ || out_of_time() ||
+         (options_.stop && options_.stop->load(std::memory_order_relaxed));
+}
+
+/// The next tile and pass with samples that are missing. Waits at the end of a round.
+std::optional<Job::Chunk> Job::next() {
+  std::unique_lock lock(schedule_lock_);
+  for (;;) {
+    if (ended()) return {};
+    if (next_chunk_ < round_end_) {
+      const std::int64_t tiles = std::int64_t(film_->done.size());
+      const std::int64_t number = next_chunk_++;
+      ++in_flight_;
+      const SampleSet::Range pass = pass_range(first_pass_ + int(number / tiles));
+      return Chunk{int(number % tiles),
+                   {std::max(pass.first, std::uint32_t(options_.first_sample)),
+                    std::min(pass.second, std::uint32_t(options_.samples))}};
+    }
+    if (next_chunk_ >= chunks_) return {};
+    if (in_flight_ == 0)
+      begin_round();
+    else
+      round_over_.wait(lock);
+  }
+}
+
+void Job::done() {
+  const std::scoped_lock lock(schedule_lock_);
+  if (--in_flight_ == 0) round_over_.notify_all();
+}
+
+/// All threads have come to the same sample: the error is asked for here and nowhere else, so the
+/// picture does not depend on the threads. \pre schedule_lock_ is held
+void Job::begin_round() {
+  const std::int64_t tiles = std::int64_t(film_->done.size());
+  const std::uint32_t complete =
+      next_chunk_ == 0 ? std::uint32_t(options_.first_sample)
+                       : pass_range(first_pass_ + int(next_chunk_ / tiles) - 1).second;
+  if (complete >= kFirstAsked) {
+    const std::scoped_lock lock(film_lock_);
+    if (ErrorEstimate(film_->sums, film_->complete()).rmse() <= options_.error) {
+      good_ = true;
+      round_over_.notify_all();
+      return;
+    }
+  }
+  const int pass = pass_of(asked_after(complete) - 1);
+  round_end_ = std::min(chunks_, (pass + 1 - first_pass_) * tiles);
+  round_over_.notify_all();
+}
+
+bool Job::was_there(int tile, std::uint32_t sample) const {
+  return options_.begin_with && options_.begin_with->done[std::size_t(tile)].has(sample);
+}
+
+/// One thread: takes chunks until there are none.
+void Job::work() {
+  Integrator integrator(world_);
+  std::vector<PixelSample> wanted;
+  std::vector<FilmSample> samples;
+  FilmSums part(options_.width, options_.height, film_->sums.filter(), {});
+  std::uint64_t faults = 0;
+  while (const std::optional<Chunk> c = next()) {
+    wanted.clear();
+    const Rect tile = film_->tile(c->tile);
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x)
+        for (std::uint32_t s = c->samples.first; s < c->samples.second; ++s)
+          if (!was_there(c->tile, s)) wanted.push_back({x, y, int(s)});
+    samples.resize(wanted.size());
+    integrator.trace(wanted, samples);
+    part.restart(reached(film_->sums, tile));
+    add(*c, part, samples);
+    paths_done_ += samples.size();
+    const std::uint64_t all = integrator.scripts().fault_lanes();
+    if ((fault_lanes_ += all - faults) > kMaxFaultLanes) too_many_faults_ = true;
+    faults = all;
+    done();
+  }
+  const std::scoped_lock lock(report_lock_);
+  account(integrator);
+  --running_;
+  finished_.notify_all();
+}
+
+/// A chunk is in the film with all its samples or not at all.
+void Job::add(const Chunk& chunk, FilmSums& part, const std::vector<FilmSample>& samples) {
+  std::vector<std::pair<PixelSample, SampleFate>> dropped;
+  for (const FilmSample& s : samples)
+    if (const SampleFate fate = part.add(s); fate != SampleFate::Added)
+      dropped.push_back({{int(s.x), int(s.y), int(s.number)}, fate});
+  const std::scoped_lock lock(film_lock_);
+  film_->sums.merge(part);
+  film_->done[chunk.tile].add(chunk.samples);
+  for (const auto& [sample, fate] : dropped) drop(sample, fate);
+}
+
+void Job::drop(const PixelSample& s, SampleFate fate) {
+  Dropped& d = report_.dropped;
+  ++(fate == SampleFate::NotANumber ? d.nan
+     : fate == SampleFate::Infinite ? d.infinite
+                                    : d.overflow);
+  const auto before = std::tuple(d.first_y, d.first_x, d.first_sample);
+  if (d.first_x < 0 || std::tuple(s.y, s.x, s.sample) < before)
+    d.first_x = s.x, d.first_y = s.y, d.first_sample = s.sample;
+}
+
+/// Reports and saves until all threads are done.
+void Job::watch() {
+  std::unique_lock lock(report_lock_);
+  for (bool all_done = false; !all_done;) {
+    all_done =
+        finished_.wait_for(lock, std::chrono::milliseconds(100), [this] { return running_ == 0; });
+    lock.unlock();
+    if (options_.progress) show_progress();
+    if (!all_done && options_.save && seconds() - saved_at_ >= options_.save_seconds) save();
+    lock.lock();
+  }
+}
+
+void Job::show_progress() {
+  const double now = seconds();
+  double fraction = paths_asked_ > 0 ? double(paths_done_.load()) / double(paths_asked_) : 1;
+  if (now - error_shown_at_ >= kSecondsOfError) {
+    const std::scoped_lock lock(film_lock_);
+    shown_error_ = ErrorEstimate(film_->sums, film_->complete()).rmse();
+    error_shown_at_ = seconds();
+  }
+  const int samples = options_.samples - options_.first_sample;
+  const int samples_done = int(fraction * samples);
+  double left = fraction > 0 ? now * (1 - fraction) / fraction : 0;
+  // Error falls at least like 1 / sqrt(samples), so no later than this.
+  if (options_.error > 0 && shown_error_ > 0) {
+    const double by_error = now * std::max(0.0, std::pow(shown_error_ / options_.error, 2) - 1);
+    left = std::min(left, by_error);
+  }
+  if (options_.seconds > 0) left = std::min(left, std::max(0.0, options_.seconds - now));
+  if (left + now > 0 && (options_.error > 0 || options_.seconds > 0))
+    fraction = std::max(fraction, now / (now + left));
+  options_.progress({fraction, samples_done, now, left, shown_error_});
+}
+
+/// Hands a copy out, so that threads go on while it is written.
+void Job::save() {
+  std::optional<PartialFilm> copy;
+  {
+    const std::scoped_lock lock(film_lock_);
+    copy.emplace(*film_);
+  }
+  options_.save(*copy);
+  saved_at_ = seconds();
+}
+
+void Job::account(const Integrator& integrator) {
+  const ScriptCounters& s = integrator.scripts().counters();
+  const FlightCounters& f = integrator.counters();
+  report_.script_runs += s.runs;
+  report_.script_points += s.points;
+  report_.pass_runs += s.pass_runs;
+  report_.emission_runs += s.emission_runs;
+  report_.medium_runs += s.medium_runs;
+  report_.media_steps += f.media_steps;
+  report_.medium_samples += f.medium_samples;
+  report_.denser_samples += f.denser_samples;
+  report_.rays += f.rays;
+  report_.shadow_rays += f.shadow_rays;
+  for (const auto& [where, lanes] : integrator.scripts().faults()) faults_[where] += lanes;
+}
+
+Rendered Job::finish() {
+  report_.paths = paths_done_;
+  report_.fault_lanes = fault_lanes_;
+  report_.too_many_faults = too_many_faults_;
+  if (report_.script_runs > 0)
+    report_.batch_fill =
+        double(report_.script_points) / double(report_.script_runs) / world_.compiled.width();
+  std::uint32_t fewest = ~0u;
+  for (const PixelSums& p : film_->sums.pixels()) fewest = std::min(fewest, p.samples);
+  report_.samples = int(fewest);
+  report_.error_reached = good_;
+  report_.stopped = options_.stop && options_.stop->load() && paths_done_ < paths_asked_ && !good_;
+  report_.rmse = ErrorEstimate(film_->sums, film_->complete()).rmse();
+  for (const auto& [where, lanes] : faults_)
+    report_.faults.push_back({place(world_.compiled.program(), where.source, where.line),
+                              cause_text(where.cause), lanes});
+  std::stable_sort(report_.faults.begin(), report_.faults.end(),
+                   [](const FaultCount& a, const FaultCount& b) { return a.lanes > b.lanes; });
+  return {film_->develop(), std::move(report_), film_};
+}
+
+}  // namespace mms::renderer
