@@ -21,6 +21,10 @@ using vm::SlotType;
 /// Calls that one unrolled recursion may inline before it is left for the machine.
 constexpr std::size_t kUnrolledCalls = 2048;
 
+/// Open calls of a function that tell its recursion from an argument that calls the function too,
+/// as in array(4, function(i) -> array(4, f)).
+constexpr std::size_t kOpenCalls = 4;
+
 }  // namespace
 
 bool Elaborator::any_known(const std::vector<Value>& values) const {
@@ -29,27 +33,42 @@ bool Elaborator::any_known(const std::vector<Value>& values) const {
   return std::any_of(refs.begin(), refs.end(), [&](Ref r) { return known(r) != nullptr; });
 }
 
+/// The outermost open call, since the last machine function was begun, of a function that has
+/// called itself.
+std::optional<std::size_t> Elaborator::repeated_call() const {
+  std::size_t begin = frames_.size();
+  while (begin > 0 && !frames_[begin - 1].instance) --begin;
+  std::map<const FunctionDecl*, std::size_t> seen;
+  std::size_t outermost = frames_.size();
+  for (std::size_t i = begin; i < frames_.size(); ++i) {
+    const auto [it, is_new] = seen.try_emplace(frames_[i].decl, i);
+    if (!is_new && frames_[i].decl) outermost = std::min(outermost, it->second);
+  }
+  return outermost < frames_.size() ? std::optional(outermost) : std::nullopt;
+}
+
 Value Elaborator::invoke(FunctionDecl* d, const std::vector<Value>& formals, const Generics& g,
                          TypeId result, Span span) {
   // The outermost open call of this function since the last machine function was begun.
-  std::size_t first = frames_.size();
+  std::size_t first = frames_.size(), open = 0;
   bool compiling = false;
   for (std::size_t i = frames_.size(); i-- > 0;) {
     const Frame& frame = frames_[i];
     if (frame.decl == d && frame.instance) compiling = true;
-    if (frame.decl == d && !frame.instance) first = i;
+    if (frame.decl == d && !frame.instance) first = i, ++open;
     if (frame.instance) break;
   }
   const bool again = first < frames_.size();
   if (compiling || (d->recursive && !again && !any_known(formals)))
     return call_instance(d, formals, g, result, span);
   const bool too_much = frames_.size() >= static_cast<std::size_t>(vm::limits::kInlineDepth) ||
-                        (again && inlined_ - frames_[first].inlined > kUnrolledCalls);
+                        (open >= kOpenCalls && inlined_ - frames_[first].inlined > kUnrolledCalls);
   // What the machine cannot compute is unrolled as long as it may end.
   const bool dynamic_choice =
       again && dynamic_ > frames_[first].dynamic && types_.is_numeric(result);
   if (dynamic_choice || (again && too_much)) throw Recursion{first};
   if (too_much) {
+    if (const auto outermost = repeated_call()) throw Recursion{*outermost};
     diagnostics_.add(Diag::TooDeep, span, vm::limits::kInlineDepth);
     return {};
   }

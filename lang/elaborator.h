@@ -246,6 +246,7 @@ class Elaborator {
   std::string instance_key(const FunctionDecl* d, const std::vector<Value>& formals) const;
   std::string describe(const Candidate& k);
   bool any_known(const std::vector<Value>& values) const;
+  std::optional<std::size_t> repeated_call() const;
   void body(Context c, const Body& b);
 
   // --- what only the library may call (elaborate_intrinsics.cpp) ---

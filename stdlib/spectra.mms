@@ -39,3 +39,15 @@ spectrum spectral(function(real) -> real f) = intrinsic::spectral(f, $wavelength
 /// >>> spectral(#sqrt, rgb(0.25, 0.25, 0.25))
 /// 0.5
 spectrum spectral(function(real) -> real f, spectrum s) = intrinsic::spectral(f, s);
+
+/// A triangle around `centre`, 1 at the centre and 0 from `width` away on; in metres.
+/// >>> triangular_band(550nm, 1000m)
+/// 1
+spectrum triangular_band(real centre, width) = max(1.0 - abs($wavelength - centre) / width, 0.0);
+
+/// A table of measured values: `values[k]` at the wavelength `wavelengths[k]`, in metres and growing;
+/// straight between, level outside.
+/// >>> tabulated([400nm, 700nm], [0.5, 0.5])
+/// 0.5
+spectrum tabulated(real[n] wavelengths, values) =
+    spectral(function(l) -> ramp(l, wavelengths, values));

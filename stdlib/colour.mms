@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Colours as [red, green, blue], linear, of the primaries of sRGB. `rgb` makes spectra of them.
+
+/// The luminance of a linear colour, that of white being 1 (ITU-R BT.709).
+/// >>> luminance([1, 1, 1])
+/// 1
+real luminance(real[3] c) = dot(c, [0.2126, 0.7152, 0.0722]);
+
+/// The linear number of a value of sRGB, both in [0, 1] (IEC 61966-2-1).
+/// >>> from_srgb(0.5)
+/// 0.214...
+real from_srgb(real v) =
+    select v / 12.92, if v <= 0.04045; pow((v + 0.055) / 1.055, 2.4) otherwise; end;
+
+/// The value of sRGB of a linear number, both in [0, 1].
+/// >>> to_srgb(from_srgb(0.5))
+/// 0.5
+real to_srgb(real x) =
+    select 12.92 * x, if x <= 0.0031308; 1.055 * pow(x, 1.0 / 2.4) - 0.055 otherwise; end;
+
+/// The reflectance of a colour as picture programs name it: red, green and blue of sRGB in [0, 255].
+/// >>> srgb(255, 255, 255)
+/// 1
+spectrum srgb(real r, g, b) = rgb(map(#from_srgb, [r / 255.0, g / 255.0, b / 255.0]));
+
+/// [hue, saturation, value] of a colour in [0, 1]: hue in turns from red, in [0, 1) (Smith 1978).
+/// >>> to_hsv([0, 0.5, 0])
+/// [0.33333333, 1, 0.5]
+real[3] to_hsv(real[3] c)
+    high = max(c[0], max(c[1], c[2]));
+    span = high - min(c[0], min(c[1], c[2]));
+    hue  = select
+        0.0, if span <= 0.0;
+        (c[1] - c[2]) / span, if c[0] == high;
+        2.0 + (c[2] - c[0]) / span, if c[1] == high;
+        4.0 + (c[0] - c[1]) / span otherwise;
+    end;
+    return [fract(hue / 6.0), select 0.0, if high <= 0.0; span / high otherwise end, high];
+
+/// The colour of that hue, in turns from red, saturation and value; all in [0, 1] if the last two are.
+/// >>> hsv(1 / 3, 1, 0.5)
+/// [0, 0.5, 0]
+real[3] hsv(real hue, saturation, value) = array(3, function(k) ->
+    value * (1.0 - saturation * saturate(2.0 - abs(6.0 * fract(hue - k / 3.0) - 3.0))));
+
+/// A colour in [0, 1] with its hue turned on, in turns; stays in [0, 1].
+/// >>> turn_hue([0.5, 0, 0], 1 / 3)
+/// [0, 0.5, 0]
+real[3] turn_hue(real[3] c, real turns)
+    h = to_hsv(map(#saturate, c));
+    return hsv(h[0] + turns, h[1], h[2]);
+
+/// A colour in [0, 1], its distance from the grey of its luminance times `amount`, at least 0: 0 is
+/// that grey, 1 the colour, more is stronger, as far as there is room in [0, 1].
+/// >>> strengthen([0.2, 0.4, 0.6], 0.0) == luminance([0.2, 0.4, 0.6]) * [1, 1, 1]
+/// true
+/// >>> strengthen([1, 0, 0], 5.0)
+/// [1, 0, 0]
+real[3] strengthen(real[3] c, real amount)
+    grey = luminance(map(#saturate, c));
+    away = map(#saturate, c) - grey;
+    real room(real d) = select
+        (1.0 - grey) / d, if d > 0.0;
+        grey / -d, if d < 0.0;
+        amount otherwise;
+    end;
+    most = min(room(away.x), min(room(away.y), room(away.z)));
+    return map(#saturate, grey + min(amount, most) * away);

@@ -1,0 +1,16 @@
+// Steps at, below and above their edges, and what they become over a width.
+const a0 = [step(0.5, 0.4999999), step(0.5, 0.5), step(0.5, 7.0)];                                                      // expect: [0, 1, 1]
+const a1 = [step(0.5, 0.25, 0.4), step(0.5, 0.5, 0.4), step(0.5, 0.9, 0.4)];                                            // expect: [0, 0.5, 1]
+const a2 = [pulse(0, 1, 0), pulse(0, 1, 1), pulse(0, 1, 0, 0.5), pulse(0, 1, 0.5, 2), pulse(0, 1, 9, 2)];               // expect: [1, 0, 0.5, 0.5, 0]
+const a3 = [linearstep(1, 3, 1), linearstep(1, 3, 3), linearstep(1, 3, 9)];                                             // expect: [0, 1, 1]
+const a4 = [linearstep(0, 1, 0, 1), linearstep(0, 1, 1, 1), linearstep(0, 1, 0.5, 8)];                                  // expect: [0.125, 0.875, 0.5]
+const a5 = [smoothstep(0, 1, -1), smoothstep(0, 1, 0.5), smoothstep(0, 1, 2)];                                          // expect: [0, 0.5, 1]
+const a6 = [smootherstep(0, 1, 0), smootherstep(0, 1, 0.5), smootherstep(0, 1, 1), smootherstep(0, 1, 2)];              // expect: [0, 0.5, 1, 1]
+const a7 = gradient(function(x) -> smootherstep(0, 1, x), 0.5);                                                         // expect: 1.875
+const a8 = [gradient(function(x) -> smootherstep(0, 1, x), 0.0), gradient(function(x) -> smootherstep(0, 1, x), 1.0)];  // expect: [0, 0]
+const a9 = [bias(0, 0.3), bias(0.5, 0.3), bias(1, 0.3), gain(0, 0.7), gain(0.5, 0.7), gain(1, 0.7)];                    // expect: [0, 0.3, 1, 0, 0.5, 1]
+const b0 = [contrast(0.75, 2), contrast(0.25, 0), contrast(3, 2, 3)];                                                   // expect: [1, 0.5, 3]
+const b1 = [smooth_min(1, 3, 0.5), smooth_min(1, 1, 0.5), smooth_max(1, 1, 0.5), smooth_max(-2, 1, 0.5)];               // expect: [1, 0.875, 1.125, 1]
+const b2 = [saw(-0.25), saw(0), saw(3), saw(0.5, 1), saw(0, 0.5)];                                                      // expect: [0.75, 0, 0, 0.5, 0.5]
+const b3 = [triangle(-0.25), triangle(0), triangle(0.5), triangle(0.5, 1), triangle(0, 0.5)];                           // expect: [0.5, 0, 1, 0.5, 0.25]
+const b4 = [choose(0, [2, 3, 5]), choose(1, [2, 3, 5]), choose(2, [2, 3, 5])];                                          // expect: [2, 3, 5]
