@@ -374,7 +374,8 @@ TEST_CASE("Ctrl-C writes what is there") {
   CHECK(run.exit == 130);
   CHECK(contains(run.err, "stopped: cut.png"));
   CHECK(folder.read("cut.png").substr(1, 3) == "PNG");
-  CHECK(folder.file_count() == 1);
+  CHECK(folder.has("cut.png.film"));
+  CHECK(folder.file_count() == 2);
 }
 
 #else
