@@ -49,6 +49,17 @@ Spectrumf Carried::weighted(double light_density) const {
   return sum > 0 ? beta * float(1 / sum) : Spectrumf(0.0f);
 }
 
+Flight camera_flight(const World& world, int path, const Sampler& sampler, double x, double y) {
+  const CameraRay ray = world.camera.at(x, y, sampler(kLensU), sampler(kLensV));
+  Flight f;
+  f.origin = ray.origin;
+  f.direction = ray.direction;
+  f.path = path;
+  f.t_max = kInfinity;
+  f.media = world.camera_media;
+  return f;
+}
+
 ScriptPoint script_point(const World& world, const Flight& f, const Hit* hit,
                          const PathView& path) {
   ScriptPoint p;
