@@ -10,6 +10,7 @@
 #include "vm/fuse.h"
 #include "vm/input_use.h"
 #include "vm/slots.h"
+#include "vm/uniform.h"
 
 namespace mms::vm {
 namespace {
@@ -665,6 +666,7 @@ LoweredCode lower(const Program& program, const PairOf& pair_of) {
     code.results.push_back(lowering.results());
   }
   find_input_use(code, graph);
+  find_uniform_sites(code);
   return code;
 }
 

@@ -56,6 +56,7 @@ struct CallSite {
   std::uint32_t first_arg = 0, args = 0;
   std::uint32_t first_result = 0, results = 0;
   std::uint32_t repeats = 1;
+  bool uniform = false;  ///< gives the same in all lanes where the inputs of the frame do
 };
 
 /// A frame is `masks` blocks of masks (0: lanes that run; 1, where it loops: lanes that start
@@ -87,6 +88,7 @@ struct LoweredCode {
   std::vector<Constant> constants;
   /// For each function, where its results are.
   std::vector<std::vector<LoweredResult>> results;
+  bool uniform_sites = false;        ///< has a CallSite that is uniform
   std::uint32_t builtin_blocks = 0;  ///< most arguments or results of one builtin call
   std::uint32_t frame_blocks = 0;    ///< masks and slots of the largest frame
   /// Nobody else's: what an interpreter recognises the code by.
