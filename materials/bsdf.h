@@ -136,6 +136,8 @@ Result Bsdf<R>::with_model(int i, Result none, Visit visit) const {
       return visit(Glossy<R>(p));
     case Lobe::Microfacet:
       return visit(Microfacet<R>(p));
+    case Lobe::Beckmann:
+      return visit(BeckmannMirror<R>(p));
     case Lobe::Conductor:
       return visit(Conductor<R>(p));
     case Lobe::Dielectric:

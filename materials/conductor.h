@@ -3,6 +3,7 @@
 
 /// \file
 /// `conductor`: GGX facets of metal with the exact Fresnel reflectance; polished at low roughness.
+/// Light of several bounces has been reflected as often: it is more saturated.
 
 #include "materials/fresnel.h"
 #include "materials/microfacet.h"
@@ -13,14 +14,11 @@ template <class R>
 struct Conductor {
   const R* n;
   const R* k;
-  Ggx<R> ggx;
+  RoughReflection<R, Ggx> rough;
 
-  explicit Conductor(const R* p)
-      : n(p),
-        k(p + kWavelengths),
-        ggx(Ggx<R>::from(p[2 * kWavelengths], p[2 * kWavelengths + 1])) {}
+  explicit Conductor(const R* p) : n(p), k(p + kWavelengths), rough(p + 2 * kWavelengths) {}
 
-  bool specular() const { return ggx.specular(); }
+  bool specular() const { return rough.specular(); }
 
   /// Reflectance of a facet at the cosine of incidence `c`.
   Spectrum<R> reflectance(R c) const {
@@ -37,14 +35,26 @@ struct Conductor {
   }
   SpecularTerms<R> terms(Vec3<R> wo) const { return mirror_terms(estimate(wo)); }
 
-  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode) const {
-    const FacetReflection<R> r = reflect_by_facets(ggx, wo, wi);
-    if (!(r.pdf > 0)) return {};
-    return {reflectance(r.cos_h) * r.f, Spectrum<R>(r.pdf)};
+  /// 2 int_0^1 F(c) c dc by the Gauss rule of three points for that weight: within 5e-4 of real
+  /// metals' (measured), and 1 for the lossless.
+  Spectrum<R> mean_reflectance() const {
+    return reflectance(R(0.2123405382)) * R(0.1396539599) +
+           reflectance(R(0.5905331356)) * R(0.4584822127) +
+           reflectance(R(0.9114120405)) * R(0.4018638274);
   }
 
-  bool sample(Vec3<R> wo, R, R u1, R u2, Vec3<R>& wi) const {
-    return sample_facet_reflection(ggx, wo, u1, u2, wi);
+  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode) const {
+    const auto v = rough.evaluate(wo, wi);
+    if (!(v.pdf > 0)) return {};
+    Lobes<R> out{reflectance(v.cos_h) * v.single, Spectrum<R>(v.pdf)};
+    const Spectrum<R> mean = mean_reflectance();
+    for (int j = 0; j < kWavelengths; ++j)
+      out.f[j] += multiple_fresnel(std::min(mean[j], R(1)), v.mean) * v.multiple;
+    return out;
+  }
+
+  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, Vec3<R>& wi) const {
+    return rough.sample(wo, u_lobe, u1, u2, wi);
   }
 };
 

@@ -19,7 +19,7 @@ struct Dielectric {
 
   explicit Dielectric(const R* p)
       : ior(p),
-        ggx(Ggx<R>::from(p[kWavelengths], R(0))),
+        ggx{Alpha<R>::from(p[kWavelengths], R(0))},
         reflected(weight_at(p + kWavelengths + 1)),
         transmitted(weight_at(p + 2 * kWavelengths + 1)) {}
 
@@ -112,13 +112,16 @@ struct Dielectric {
   }
 
   Lobes<R> evaluate_reflection(Vec3<R> wo, Vec3<R> wi) const {
-    const FacetReflection<R> r = reflect_by_facets(ggx, wo, wi);
     Lobes<R> out;
-    if (!(r.pdf > 0)) return out;
+    const Vec3<R> o = to_upper(wo, wo), i = to_upper(wi, wo);
+    const Vec3<R> h = half_vector(o, i);
+    if (!(h.z > 0)) return out;
+    const R f = ggx.density(h) * materials::masking(ggx, o, i), pdf = visible(ggx, o, h) / 4;
+    const R cos_h = limited(dot(o, h), R(0), R(1));
     for (int j = 0; j < kWavelengths; ++j) {
-      const FresnelSplit<R> s = fresnel_split(r.cos_h, rough_eta(j, wo));
-      out.f[j] = s.reflected * reflected[j] * r.f;
-      out.pdf[j] = choose(j, s).reflect * r.pdf;
+      const FresnelSplit<R> s = fresnel_split(cos_h, rough_eta(j, wo));
+      out.f[j] = s.reflected * reflected[j] * f;
+      out.pdf[j] = choose(j, s).reflect * pdf;
     }
     return out;
   }
@@ -126,7 +129,7 @@ struct Dielectric {
   Lobes<R> evaluate_transmission(Vec3<R> wo, Vec3<R> wi, Mode mode) const {
     Lobes<R> out;
     const Vec3<R> o = to_upper(wo, wo), i = to_upper(wi, wo);
-    const R masking = ggx.masking(o, i);
+    const R masking = materials::masking(ggx, o, i);
     for (int j = 0; j < kWavelengths; ++j) {
       const R eta = rough_eta(j, wo);
       if (j > 0 && ior[j] == ior[j - 1] && reflected[j] == reflected[j - 1] &&
@@ -149,7 +152,7 @@ struct Dielectric {
       // masking already holds 1 / (4 |wo.z| |wi.z|).
       out.f[j] =
           s.transmitted * transmitted[j] * ggx.density(h) * 4 * masking * oh * jacobian * scale;
-      out.pdf[j] = choose(j, s).transmit * ggx.visible(o, h) * oh * jacobian * eta * eta;
+      out.pdf[j] = choose(j, s).transmit * visible(ggx, o, h) * oh * jacobian * eta * eta;
     }
     return out;
   }

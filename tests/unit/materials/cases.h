@@ -37,6 +37,10 @@ inline std::vector<Case> smooth_cases() {
   put("microfacet 1", microfacet(1, 1));
   put("microfacet anisotropic", microfacet(1, 0.5, 0.8));
   put("microfacet anisotropic across", microfacet(1, 0.4, -0.5));
+  put("beckmann 0.1", beckmann(1, 0.1));
+  put("beckmann 0.5", beckmann(ramp(0.3, 0.8), 0.5));
+  put("beckmann 1", beckmann(1, 1));
+  put("beckmann anisotropic", beckmann(1, 0.5, 0.8));
   put("conductor", conductor(ramp(0.2, 1.3), ramp(3.4, 2.1), 0.3));
   put("dielectric 1.5, 0.3", dielectric(1.5, 0.3));
   put("dielectric dispersive, 0.5", dielectric(ramp(1.6, 1.4), 0.5));

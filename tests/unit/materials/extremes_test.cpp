@@ -36,6 +36,7 @@ std::vector<Material> extreme_materials() {
     m.push_back(microfacet(1, r));
     m.push_back(microfacet(1, r, 1));
     m.push_back(microfacet(1, r, -1));
+    for (double a : {0.0, 1.0, -1.0}) m.push_back(beckmann(1, r, a));
     m.push_back(conductor(ramp(0.05, 3), ramp(0, 8), r));
     for (double ior : {1 + 1e-7, 1 - 1e-7, 1.0, 1.001, 1.5, 4.0, 0.25, 1e-9, 1e20})
       m.push_back(dielectric(ior, r));

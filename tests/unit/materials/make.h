@@ -63,6 +63,9 @@ inline Material glossy(Value c, double gloss) { return node(Lobe::Glossy, {}, {c
 inline Material microfacet(Value c, double roughness, double anisotropy = 0) {
   return node(Lobe::Microfacet, {}, {c}, {roughness, anisotropy});
 }
+inline Material beckmann(Value c, double roughness, double anisotropy = 0) {
+  return node(Lobe::Beckmann, {}, {c}, {roughness, anisotropy});
+}
 inline Material conductor(Value n, Value k, double roughness = 0, double anisotropy = 0) {
   return node(Lobe::Conductor, {}, {n, k}, {roughness, anisotropy});
 }
