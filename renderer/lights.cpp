@@ -91,8 +91,7 @@ Lights::Lights(const SceneData& scene, const std::vector<double>& radiance)
     if (!(radiance[i] > 0)) continue;
     const Shape& shape = scene.objects[i].shape;
     Choice c{i, radiance[i], area(shape), bounds(shape).centre(), {}, {}};
-    if (std::holds_alternative<Quad>(shape) || std::holds_alternative<Disc>(shape))
-      c.facing = sample_surface(shape, 0.5, 0.5).normal;
+    if (open(shape)) c.facing = sample_surface(shape, 0.5, 0.5).normal;
     if (const Mesh* m = std::get_if<Mesh>(&shape)) {
       c.triangles.push_back(0);
       for (std::uint32_t t = 0; t < m->triangles.size(); ++t)
