@@ -44,9 +44,20 @@ void Carried::rescale() {
   light_pdf *= scale;
 }
 
-Spectrumf Carried::weighted(double light_density) const {
-  const double sum = double(pdf.sum()) + (light_density > 0 ? light_density * light_pdf.sum() : 0);
-  return sum > 0 ? beta * float(1 / sum) : Spectrumf(0.0f);
+Spectrumf Carried::weighted(double light_density, Estimator estimator) const {
+  const auto density = [&](float p, float light) {
+    return double(p) + (light_density > 0 ? light_density * light : 0);
+  };
+  if (estimator == Estimator::Clustered) {
+    const double sum = density(pdf.sum(), light_pdf.sum());
+    return sum > 0 ? beta * float(1 / sum) : Spectrumf(0.0f);
+  }
+  const double hero = density(pdf[0], light_pdf[0]);
+  if (!(hero > 0)) return Spectrumf(0.0f);
+  if (estimator == Estimator::Unweighted) return beta * float(1 / (kWavelengths * hero));
+  Spectrumf one;
+  one[0] = beta[0] * float(1 / hero);
+  return one;
 }
 
 ScriptPoint script_point(const World& world, const Flight& f, const Hit* hit,
@@ -174,7 +185,7 @@ bool Flights::through_homogeneous(Flight& f, float length, const PathView& path)
     for (int k = 0; k < kWavelengths; ++k)
       optical[k] =
           extinction[k] > 0 ? -std::expm1(-extinction[k] * length) / extinction[k] : length;
-    *path.radiance += f.carried.weighted(0) * f.emission * optical;
+    *path.radiance += f.carried.weighted(0, world_.estimator) * f.emission * optical;
   }
   const float hero = f.scattering[0];
   const float s = hero > 0 ? -std::log1p(-random(f, path)) / hero : kInfinity;
@@ -285,7 +296,8 @@ void Flights::collide(Flight& f, const PathView& path) {
     if (f.carried.beta.is_black()) f.end = End::Lost;
     return;
   }
-  if (!f.emission.is_black()) *path.radiance += f.carried.weighted(0) * f.emission * (1 / majorant);
+  if (!f.emission.is_black())
+    *path.radiance += f.carried.weighted(0, world_.estimator) * f.emission * (1 / majorant);
   if (random(f, path) < scattered[0]) {
     f.carried.happened(scattered, scattered);
     f.end = End::Medium;
@@ -339,7 +351,7 @@ void Flights::add_crossing_emission(const Flight& f, const ScriptPoint& point,
                                     const Spectrumf& emitted, const PathView& path) {
   const int object = int(point.object - world_.scene.objects.data());
   const double light = world_.lights.pdf(Vec3d(f.origin), object, point.surface);
-  *path.radiance += f.carried.weighted(light) * emitted;
+  *path.radiance += f.carried.weighted(light, world_.estimator) * emitted;
 }
 
 }  // namespace mms::renderer

@@ -26,8 +26,8 @@ struct Carried {
   /// Scales by the largest density.
   void rescale();
   /// Weight of light found with density `light_density` per steradian by the other technique:
-  /// the balance heuristic over both techniques and all wavelengths.
-  Spectrumf weighted(double light_density) const;
+  /// the balance heuristic over both techniques and, if clustered, all wavelengths.
+  Spectrumf weighted(double light_density, Estimator estimator) const;
 };
 
 enum class Errand : std::uint8_t { Path, Shadow };

@@ -118,7 +118,7 @@ class Node {
     const Vec3d v = vec3(0, high);
     return {v.x, v.y, v.z};
   }
-  const std::string& file() const { return file_; }
+  bool is_object() const { return json_->is_object(); }
 
  private:
   Node member(const std::string& key) const {
@@ -211,8 +211,8 @@ class Parser {
   }
 
   void object(const Node& n) {
-    n.keys({"name", "sphere", "quad", "disc", "mesh", "translate", "rotate", "scale", "surface",
-            "volume", "test"});
+    n.keys({"name", "sphere", "quad", "disc", "box", "mesh", "translate", "rotate", "scale",
+            "surface", "volume", "test"});
     Object o;
     if (n.has("name")) o.name = n["name"].text();
     if (n.has("translate")) o.transform.move = n["translate"].vec3();
@@ -221,15 +221,15 @@ class Parser {
     o.test = n.has("test") && n["test"].logic();
     o.shape = shape(n, o.transform);
     bind(n, o);
-    if (o.volume >= 0 &&
-        (std::holds_alternative<Quad>(o.shape) || std::holds_alternative<Disc>(o.shape)))
-      n.fail("a volume needs a closed object", "a sphere, or a closed mesh");
+    if (o.volume >= 0 && open(o.shape))
+      n.fail("a volume needs a closed object", "a sphere, a box, or a closed mesh");
     data_.objects.push_back(std::move(o));
   }
 
   Shape shape(const Node& n, Transform& transform) {
-    const int count = n.has("sphere") + n.has("quad") + n.has("disc") + n.has("mesh");
-    if (count != 1) n.fail("an object has one of `sphere`, `quad`, `disc` and `mesh`");
+    const int count =
+        n.has("sphere") + n.has("quad") + n.has("disc") + n.has("box") + n.has("mesh");
+    if (count != 1) n.fail("an object has one of `sphere`, `quad`, `disc`, `box` and `mesh`");
     const Transform& t = transform;
     if (n.has("sphere")) {
       const Node s = n["sphere"];
@@ -252,9 +252,56 @@ class Parser {
       return Disc{t.point(centre), Frame<double>::around(normalize(t.direction(normal))),
                   s.number_or("radius", 1, 1e-9, 1e9) * t.scale};
     }
+    if (n.has("box")) {
+      const Node s = n["box"];
+      s.keys({"center", "size"});
+      const Vec3d centre = s.has("center") ? s["center"].vec3() : Vec3d{};
+      const Vec3d size = s.has("size") ? s["size"].vec3(1e-9, 1e9) : Vec3d{2, 2, 2};
+      return Box{t.point(centre), t.axes, size * (0.5 * t.scale)};
+    }
+    if (n["mesh"].is_object()) return written_mesh(n["mesh"], t);
     Result<Mesh> mesh = load_mesh(path_of(n["mesh"]), t);
     if (!mesh) n["mesh"].fail(mesh.error().what, mesh.error().hint);
     return std::move(*mesh);
+  }
+
+  /// A mesh whose corners stand in the scene itself.
+  Mesh written_mesh(const Node& n, const Transform& t) {
+    n.keys({"positions", "triangles", "normals", "uvs"});
+    Mesh m;
+    for (const Node& p : n["positions"].elements()) m.positions.emplace_back(t.point(p.vec3()));
+    const auto one_each = [&](const char* key, std::size_t count) {
+      if (count != m.positions.size())
+        n[key].fail(fmt::format("{} entries for {} positions", count, m.positions.size()));
+    };
+    if (n.has("normals")) {
+      for (const Node& p : n["normals"].elements())
+        m.normals.emplace_back(t.direction(normalize(p.direction())));
+      one_each("normals", m.normals.size());
+    }
+    if (n.has("uvs")) {
+      for (const Node& p : n["uvs"].elements()) {
+        const std::vector<Node> e = p.elements();
+        if (e.size() != 2) p.fail(fmt::format("expected 2 numbers, found {}", e.size()));
+        m.uvs.push_back({float(e[0].number()), float(e[1].number())});
+      }
+      one_each("uvs", m.uvs.size());
+    }
+    for (const Node& triangle : n["triangles"].elements()) {
+      std::array<std::uint32_t, 3> corners{};
+      const std::vector<Node> e = triangle.elements();
+      if (e.size() != 3) triangle.fail(fmt::format("expected 3 corners, found {}", e.size()));
+      for (int k = 0; k < 3; ++k) {
+        const double corner = e[k].number(0, double(m.positions.size()) - 1);
+        if (corner != std::floor(corner)) e[k].fail("expected the number of a position");
+        corners[k] = std::uint32_t(corner);
+      }
+      m.triangles.push_back(corners);
+      if (!(triangle_area(m, std::uint32_t(m.triangles.size() - 1)) > 0))
+        triangle.fail("a triangle without area");
+    }
+    if (m.triangles.empty()) n["triangles"].fail("the mesh has no triangle");
+    return m;
   }
 
   /// Finds the descriptors of an object: what the caller asked for, what the scene says, or the

@@ -8,6 +8,7 @@
 #include "renderer/camera.h"
 #include "renderer/lights.h"
 #include "renderer/scripts.h"
+#include "renderer/switches.h"
 
 namespace mms::renderer {
 
@@ -48,6 +49,8 @@ struct World {
   std::uint64_t seed = 0;
   int max_depth = 0;
   std::vector<double> majorants;  ///< of each object's volume, if it varies: Findings
+  Estimator estimator = Estimator::Clustered;
+  Generator generator = Generator::Niederreiter;
 
   const Surface& surface_of_object(int object) const {
     return scene.surfaces[scene.objects[object].surface];

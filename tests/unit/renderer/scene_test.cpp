@@ -57,7 +57,7 @@ TEST_CASE("every mistake names its place and what to try") {
   CHECK(holds(e.what, "expected 3 numbers, found 2"));
 
   e = error_of(R"({"objects": [{"surface": "wood"}]})");
-  CHECK(holds(e.what, "one of `sphere`, `quad`, `disc` and `mesh`"));
+  CHECK(holds(e.what, "one of `sphere`, `quad`, `disc`, `box` and `mesh`"));
 
   e = error_of(R"({"objects": []})");
   CHECK(holds(e.what, "no object"));
@@ -170,4 +170,41 @@ TEST_CASE("meshes come from OBJ and PLY") {
   CHECK_FALSE(bool(load_mesh((folder / "none.obj").string(), {})));
   CHECK(holds(load_mesh("/etc/hostname", {}).error().hint, ".obj"));
   std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("boxes and written meshes: turned, scaled and moved like all, their mistakes told") {
+  HandProgram h;
+  h.matte("wood", 0.5);
+  const auto objects = [](const std::string& o) {
+    return R"({"objects": [{"surface": "wood", "scale": 2, "rotate": [0, 90, 0], "translate": [0, 1, 0],)" +
+           o + "}]}";
+  };
+  Result<SceneData> r =
+      parse_scene(h.program, {}, objects(R"("box": {"size": [1, 2, 6]})"), "s", "");
+  REQUIRE(bool(r));
+  Bounds b = bounds(r->objects[0].shape);
+  CHECK(b.high.x == doctest::Approx(6));  // z turned to x
+  CHECK(b.high.y == doctest::Approx(3));
+  CHECK(b.low.z == doctest::Approx(-1));
+
+  const std::string corners = R"("mesh": {"positions": [[0, 0, 0], [0, 0, 1], [0, 1, 0]],)";
+  r = parse_scene(h.program, {}, objects(corners + R"("triangles": [[0, 1, 2]],
+      "normals": [[1, 0, 0], [0, 0, 2], [1, 0, 0]], "uvs": [[0, 0], [0.5, 0], [0, 1]]})"),
+                  "s", "");
+  REQUIRE_MESSAGE(bool(r), (r ? "" : r.error().where + r.error().what));
+  const Mesh& m = std::get<Mesh>(r->objects[0].shape);
+  CHECK(m.positions[1].x == doctest::Approx(2));
+  CHECK(m.positions[1].y == doctest::Approx(1));
+  CHECK(m.normals[1].x == doctest::Approx(1));
+  CHECK(m.uvs[1][0] == 0.5f);
+
+  CHECK(error_of(objects(corners + R"("triangles": [[0, 1, 3]]})")).where ==
+        "s.json: objects[0].mesh.triangles[0][2]");
+  CHECK(holds(error_of(objects(corners + R"("triangles": [[0, 1, 1]]})")).what, "without area"));
+  CHECK(holds(error_of(objects(corners + R"("triangles": []})")).what, "no triangle"));
+  CHECK(holds(
+      error_of(objects(corners + R"("triangles": [[0, 1, 2]], "normals": [[1, 0, 0]]})")).what,
+      "1 entries for 3 positions"));
+  CHECK(error_of(objects(R"("box": {"size": [1, 0, 1]})")).where ==
+        "s.json: objects[0].box.size[1]");
 }
