@@ -48,7 +48,19 @@ Value Elaborator::call_intrinsic(std::string_view name, const std::vector<BoundA
   if (name == "array") return tabulate(args[0].value, args[1].value);
   if (name == "gradient") return gradient_of(args[0].value, args[1].value);
   if (name == "across_footprint") return across_footprint(args[0].value);
+  if (name == "values") return values_of(args[0].value);
   return at_each_wavelength(args[0].value, args[1].value);
+}
+
+/// The array of a spectrum's values.
+Value Elaborator::values_of(const Value& spectrum) {
+  const Value whole = convert(spectrum, TypeTable::kSpectrum, user_span_);
+  if (whole.poison()) return {};
+  const Ref s = localise(whole.refs[0]);
+  std::vector<Value> parts;
+  for (std::uint32_t k = 0; k < kWavelengths; ++k)
+    parts.push_back(scalar(TypeTable::kReal, component(s, k)));
+  return array_of(std::move(parts), {});
 }
 
 /// `[f(0), f(1), ...]` of `count` elements.

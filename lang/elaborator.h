@@ -253,6 +253,7 @@ class Elaborator {
   Value call_intrinsic(std::string_view name, const std::vector<BoundArgument>& args);
   Value tabulate(const Value& count, const Value& f);
   Value gradient_of(const Value& f, const Value& point);
+  Value values_of(const Value& spectrum);
   Value at_each_wavelength(const Value& f, const Value& spectrum);
   std::optional<Ref> widened(std::uint32_t first, Ref x, Ref s, Ref root);
   Ref component(Ref spectrum, std::uint32_t k);

@@ -29,10 +29,7 @@ Function perlin_derivative1, perlin_derivative2, perlin_derivative3, perlin_deri
 Function hash1, hash2, hash3, hash4, cells1, cells2, cells3, cells4;
 Function worley2, worley3, worley_pair2, worley_pair3;
 
-Function planck, illuminant_d65, illuminant_a, sellmeier, cauchy, fresnel, fresnel_conductor;
-Function gold_n, gold_k, silver_n, silver_k, copper_n, copper_k, aluminium_n, aluminium_k;
-Function illuminant_d65_slope, illuminant_a_slope;
-Function gold_n_slope, gold_k_slope, silver_n_slope, silver_k_slope;
-Function copper_n_slope, copper_k_slope, aluminium_n_slope, aluminium_k_slope;
+Function planck, sellmeier, cauchy, fresnel, fresnel_conductor;
+Function optical_table, optical_table_slope;
 
 }  // namespace mms::stdlib::bounds
