@@ -60,6 +60,17 @@ Spectrumf Carried::weighted(double light_density, Estimator estimator) const {
   return one;
 }
 
+Flight camera_flight(const World& world, int path, const Sampler& sampler, double x, double y) {
+  const CameraRay ray = world.camera.at(x, y, sampler(kLensU), sampler(kLensV));
+  Flight f;
+  f.origin = ray.origin;
+  f.direction = ray.direction;
+  f.path = path;
+  f.t_max = kInfinity;
+  f.media = world.camera_media;
+  return f;
+}
+
 ScriptPoint script_point(const World& world, const Flight& f, const Hit* hit,
                          const PathView& path) {
   ScriptPoint p;

@@ -112,6 +112,10 @@ class Flights {
   std::vector<float> params_;
 };
 
+/// A flight of path `path` from the camera through (x, y), in pixels; `sampler` chooses the point
+/// of the lens.
+Flight camera_flight(const World& world, int path, const Sampler& sampler, double x, double y);
+
 /// The point a flight has come to, for a script: on the surface of `hit`, or free in a volume.
 ScriptPoint script_point(const World& world, const Flight& f, const Hit* hit, const PathView& path);
 

@@ -120,15 +120,8 @@ void Integrator::start(std::span<const PixelSample> samples, std::span<FilmSampl
     point.x = s.x + double(p.sampler(kFilmX));
     point.y = s.y + double(p.sampler(kFilmY));
     point.number = std::uint32_t(s.sample);
-    const CameraRay ray = world_.camera.at(point.x, point.y, p.sampler(kLensU), p.sampler(kLensV));
     views_.push_back({&p.cluster, &p.sampler, &p.radiance, world_.camera.pixel_angle()});
-    Flight f;
-    f.origin = ray.origin;
-    f.direction = ray.direction;
-    f.path = i;
-    f.t_max = std::numeric_limits<float>::infinity();
-    f.media = world_.camera_media;
-    now_.push_back(f);
+    now_.push_back(camera_flight(world_, i, p.sampler, point.x, point.y));
   }
 }
 

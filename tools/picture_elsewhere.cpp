@@ -11,6 +11,7 @@
 #include <iterator>
 #include <vector>
 
+#include "tools/compare.h"
 #include "tools/merge.h"
 #include "tools/render.h"
 
@@ -39,5 +40,6 @@ Exit start_renderer(const ScriptOptions& options) {
 
 Exit render_pictures(const RenderRequest& request) { return start_renderer(request); }
 Exit merge_films(const MergeRequest& request) { return start_renderer(request); }
+Exit compare_pictures(const CompareRequest& request) { return start_renderer(request); }
 
 }  // namespace mms::tools

@@ -13,7 +13,8 @@
 #include "api/library.h"
 #include "base/hash.h"
 #include "renderer/film_file.h"
-#include "renderer/render.h"
+#include "renderer/picture.h"
+#include "tools/output.h"
 #include "tools/render.h"
 #include "vm/serialise.h"
 
@@ -244,7 +245,8 @@ Result<renderer::Done> write_result(const RenderRequest& request, const std::str
                                     const renderer::Rendered& r) {
   if (path == checkpoint.path()) return renderer::save_film(path, key, *r.sums);
   if (r.report.stopped) checkpoint.save(*r.sums);
-  const auto written = renderer::write_image(path, r.film, {request.stops});
+  const auto written = renderer::write_picture(
+      path, {r.film, r.layers.get(), metadata(path, key, *r.sums)}, view_of(request));
   if (!written && !r.report.stopped) checkpoint.save(*r.sums);
   std::error_code ignored;
   if (written && !r.report.stopped) fs::remove(checkpoint.path(), ignored);
@@ -267,6 +269,7 @@ Exit render_one(const RenderRequest& request, const std::string& file, const std
 
   renderer::RenderOptions options = render_options(request);
   const renderer::FilmKey key = renderer::film_key(*scene, options, script_hash(linked->program));
+  options.layers = path.ends_with(".exr");
   Checkpoint checkpoint(checkpoint_path(path), key);
   if (request.resume) {
     const auto found = earlier(checkpoint.path(), key);
@@ -296,10 +299,10 @@ Exit render_pictures(const RenderRequest& request) {
   for (const std::string& file : request.files) {
     const auto path = picture_path(request, file);
     if (!path) return fail(Exit::Usage, path.error(), request);
-    if (const auto ok = renderer::check_writable(*path); !ok)
-      return fail(Exit::File, ok.error(), request);
     paths.push_back(*path);
   }
+  if (const auto ok = check_output(paths, request); !ok)
+    return fail(Exit::File, ok.error(), request);
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);  // what batch systems send
   Exit worst = Exit::Ok;
