@@ -21,7 +21,7 @@ Function abs_integer, sign_integer, min_integer, max_integer, clamp_integer;
 Function complex_exp, complex_log, complex_sqrt, complex_sin, complex_cos, complex_tan;
 Function complex_sinh, complex_cosh, complex_tanh, complex_pow, complex_powi, complex_abs;
 Function complex_asin, complex_acos, complex_atan, complex_asinh, complex_acosh, complex_atanh;
-Function conj, arg, re, im, polar;
+Function polar;
 
 Function perlin1, perlin2, perlin3, perlin4;
 Function perlin_gradient1, perlin_gradient2, perlin_gradient3, perlin_gradient4;
