@@ -5,11 +5,11 @@
 
 #include <cmath>
 
+#include "base/quadrature.h"
 #include "base/warp.h"
 #include "renderer/sampler.h"
 #include "scenes.h"
 #include "tests/sanitized.h"
-#include "tests/stats/quadrature.h"
 
 using namespace mms;
 using namespace mms::renderer;
@@ -113,11 +113,11 @@ TEST_CASE("a thin medium is as bright as single scattering says, but for the squ
   const Mean m = mean_luminance(run(p, s, o).film);
   // Of what is scattered half comes from the bright side, dimmed along 1 / cos: the exponential
   // integral. Quadrature of one scattering over depth and direction; two are of order tau^2 ln tau.
-  const double single = stats::integrate_adaptive(
+  const double single = integrate_adaptive(
       [](double z) {
         return 0.01 * std::exp(-0.01 * z) * 0.5 *
-               stats::integrate_adaptive([&](double mu) { return std::exp(-0.01 * z / mu); }, 1e-6,
-                                         1.0, 1e-9);
+               integrate_adaptive([&](double mu) { return std::exp(-0.01 * z / mu); }, 1e-6, 1.0,
+                                  1e-9);
       },
       0, 1, 1e-9);
   INFO("mean ", m.value, " +- ", m.error, ", single ", single);
