@@ -27,6 +27,8 @@ struct SceneSource {
   /// scenes). Empty: what the scene says, else the program's only surface, and the volume of the
   /// same name if there is one.
   std::string surface, volume;
+  /// Turns the object under test about the vertical axis through its own origin; radians.
+  double turn = 0;
 };
 
 /// Names of the built-in scenes, the default first.

@@ -55,7 +55,7 @@ struct Camera {
   Vec3d position{0, 0, 5}, target, up{0, 1, 0};
   double fov = 0.6;     ///< full vertical angle of view, radians
   double aperture = 0;  ///< radius of the lens, m; 0 is a pinhole
-  double focus = 0;     ///< distance of the plane in focus, m
+  double focus = 5;     ///< distance of the plane in focus, above 0; m
 };
 
 /// Latitude-longitude picture around the scene: +y up, the middle column looks along -z.

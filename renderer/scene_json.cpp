@@ -3,6 +3,7 @@
 // names the place: `file: objects[2].material`. docs/scene.md is the manual of this file.
 #include <nlohmann/json.hpp>
 
+#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -219,11 +220,19 @@ class Parser {
     if (n.has("rotate")) o.transform.axes = euler(n["rotate"].vec3());
     o.transform.scale = n.number_or("scale", 1, 1e-9, 1e9);
     o.test = n.has("test") && n["test"].logic();
+    if (o.test) turn(o.transform);
     o.shape = shape(n, o.transform);
     bind(n, o);
     if (o.volume >= 0 && open(o.shape))
       n.fail("a volume needs a closed object", "a sphere, a box, or a closed mesh");
     data_.objects.push_back(std::move(o));
+  }
+
+  /// As `SceneSource::turn` asks.
+  void turn(Transform& t) const {
+    const double c = std::cos(source_.turn), s = std::sin(source_.turn);
+    for (Vec3d* axis : {&t.axes.s, &t.axes.t, &t.axes.n})
+      *axis = {c * axis->x + s * axis->z, axis->y, c * axis->z - s * axis->x};
   }
 
   Shape shape(const Node& n, Transform& transform) {
@@ -465,7 +474,7 @@ Result<Scene> load_scene(const vm::Program& program, const SceneSource& source) 
   }
   Result<SceneData> data = parse_scene(program, source, text, origin, folder);
   if (!data) return data.error();
-  data->hash = hash_of(*data, text);
+  data->hash = hash_combine(hash_of(*data, text), std::bit_cast<std::uint64_t>(source.turn));
   return Scene(std::make_shared<const SceneData>(std::move(*data)));
 }
 
