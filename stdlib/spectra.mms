@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Spectra: colours, black bodies, bands. Emission is in W m^-2 sr^-1 nm^-1.
 
-/// The reflectance of linear red, green and blue in [0, 1] (thesis Table 6.1); equal parts give a grey exactly.
+/// The reflectance of linear red, green and blue in [0, 1] (thesis Table 6.1); equal parts give a grey
+/// exactly. Other colours come back a little changed; `rgb_sigmoid` keeps them.
 /// >>> rgb(0.5, 0.5, 0.5)
 /// 0.5
 spectrum rgb(real r, g, b) = b + (r - b) * $rgb_red + (g - b) * $rgb_green;
