@@ -10,18 +10,15 @@
 
 namespace mms::materials {
 
+/// Reflectance of a facet of bare metal.
 template <class R>
-struct Conductor {
-  const R* n;
-  const R* k;
-  RoughReflection<R, Ggx> rough;
+struct ConductorFresnel {
+  static constexpr int kNumbers = 2 * kWavelengths;  ///< n, k
+  const R* p;
 
-  explicit Conductor(const R* p) : n(p), k(p + kWavelengths), rough(p + 2 * kWavelengths) {}
-
-  bool specular() const { return rough.specular(); }
-
-  /// Reflectance of a facet at the cosine of incidence `c`.
-  Spectrum<R> reflectance(R c) const {
+  /// At the cosine of incidence `c`.
+  Spectrum<R> operator()(R c) const {
+    const R *n = p, *k = p + kWavelengths;
     Spectrum<R> f;
     for (int j = 0; j < kWavelengths; ++j) {
       const bool repeated = j > 0 && n[j] == n[j - 1] && k[j] == k[j - 1];
@@ -29,6 +26,17 @@ struct Conductor {
     }
     return f;
   }
+};
+
+/// Facets of a metal; `Fresnel` holds the first numbers, roughness and anisotropy follow.
+template <class R, template <class> class Fresnel>
+struct RoughMetal {
+  Fresnel<R> reflectance;
+  RoughReflection<R, Ggx> rough;
+
+  explicit RoughMetal(const R* p) : reflectance{p}, rough(p + Fresnel<R>::kNumbers) {}
+
+  bool specular() const { return rough.specular(); }
 
   Spectrum<R> estimate(Vec3<R> wo) const {
     return reflectance(limited(std::abs(wo.z), R(0), R(1)));
@@ -57,5 +65,8 @@ struct Conductor {
     return rough.sample(wo, u_lobe, u1, u2, wi);
   }
 };
+
+template <class R>
+using Conductor = RoughMetal<R, ConductorFresnel>;
 
 }  // namespace mms::materials

@@ -11,5 +11,6 @@ namespace {
 const FacetTables kGgxTables{kGgxLoss, kGgxMean, kGgxStretched, kGgxStretchedMean};
 const FacetTables kBeckmannTables{kBeckmannLoss, kBeckmannMean, kBeckmannStretched,
                                   kBeckmannStretchedMean};
+const InterfaceTables kGgxInterface{{kGgxDense, kGgxRare}, {kGgxDenseMean, kGgxRareMean}};
 
 }  // namespace mms::materials

@@ -3,7 +3,8 @@
 
 /// \file
 /// What microfacets lose to further bounces, from tables that are computed when the project is
-/// built (materials/tables/), and the lobes that give it back.
+/// built (materials/tables/), and the lobes that give it back. Facets that are mirrors come first,
+/// those of a dielectric, which also transmit, after them.
 ///
 /// The share that single scattering by lossless facets loses is l(w) = 1 - E(w); its mean over the
 /// hemisphere is m = 1/pi int l |w.z| dw. Given back as l(wo) l(wi) / (pi m) (Kulla and Conty
@@ -26,6 +27,14 @@ struct FacetTables {
 };
 extern const FacetTables kGgxTables, kBeckmannTables;
 
+/// The same of isotropic GGX facets of a lossless dielectric, reflection and refraction together:
+/// [0] where the index rises on the far side, [1] where it falls.
+struct InterfaceTables {
+  const float* loss[2];  ///< [alpha][index][direction]
+  const float* mean[2];  ///< [alpha][index], over `mean_unit`
+};
+extern const InterfaceTables kGgxInterface;
+
 /// How directions and widths are laid out over [0, 1] along the axes of the tables.
 namespace axes {
 
@@ -35,6 +44,8 @@ inline constexpr double kMinMeanAlpha = 1e-5;
 inline constexpr int kAlpha = 65, kDirection = 65, kMean = 193;
 inline constexpr int kStretchedAlpha = 14, kAspect = 6, kAzimuth = 6, kStretchedDirection = 21;
 inline constexpr int kStretchedMean = 65, kMeanAspect = 12;
+inline constexpr int kInterfaceAlpha = 21, kIndex = 23, kInterfaceDirection = 61;
+inline constexpr int kInterfaceMean = 65;
 
 /// Of a direction of |cosine| `z` and tangential length `s`; fine where z is near 0 or `width` s.
 template <class R>
@@ -66,6 +77,19 @@ inline R log_alpha(R a, R largest) {
 template <class R>
 inline R aspect(R quotient) {
   return std::log(quotient) / std::numbers::ln10_v<R>;
+}
+
+/// The same for an interface, whose critical angle may be anywhere: two parts `direction`, one
+/// angle.
+template <class R>
+inline R interface_direction(R z, R s, R width) {
+  return (2 * direction(z, s, width) + std::atan2(z, s) * (2 / std::numbers::pi_v<R>)) / 3;
+}
+
+/// Of the relative index `eta`: 0 at 1, towards 1 for 0 and infinity.
+template <class R>
+inline R index(R eta) {
+  return std::sqrt(std::abs(eta - 1) / (eta + 1));
 }
 
 }  // namespace axes
@@ -123,6 +147,42 @@ struct FacetLoss {
  private:
   static R clamp01(R x) { return x > 0 ? std::min(x, R(1)) : R(0); }
 };
+
+/// The loss of a rough dielectric of relative index `eta` (far side over near side).
+template <class R>
+struct InterfaceLoss {
+  R alpha, eta;
+  const InterfaceTables* tables = &kGgxInterface;
+
+  /// l(w) in [0, 1].
+  R at(Vec3<R> w) const {
+    using namespace axes;
+    const R z = std::abs(w.z), s = std::sqrt(w.x * w.x + w.y * w.y);
+    const auto d = Stencil<R>::at(interface_direction(z, s, width(alpha)), kInterfaceDirection);
+    const auto a = Stencil<R>::at(axes::alpha(alpha, R(1)), kInterfaceAlpha);
+    const auto n = Stencil<R>::at(index(eta), kIndex);
+    constexpr int n1 = coefficients(kInterfaceDirection), n0 = n1 * coefficients(kIndex);
+    const R l = interpolate(tables->loss[eta < 1], a, n0, n, n1, d);
+    return l > 0 ? std::min(l, R(1)) : R(0);
+  }
+
+  /// m in (0, 1).
+  R mean() const {
+    using namespace axes;
+    const auto a = Stencil<R>::at(log_alpha(alpha, R(1)), kInterfaceMean);
+    const auto n = Stencil<R>::at(index(eta), kIndex);
+    return mean_unit(alpha * alpha) *
+           interpolate(tables->mean[eta < 1], a, coefficients(kIndex), n);
+  }
+};
+
+/// How much of what is lost on this side is given back on the far one; the rest on this one. With
+/// l_t(wi) / (pi m_t) as the shape there, the split that is reciprocal.
+template <class R>
+inline R transmitted_share(R mean_here, R mean_there, R eta) {
+  const R there = eta * eta * mean_there;
+  return there / (mean_here + there);
+}
 
 /// How directions of further bounces are drawn: much as they are distributed, in closed form.
 /// The density over projected solid angle is proportional to 1 / (z^2 + alpha^2).

@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "materials/fresnel.h"
 #include "materials/tables/visible.h"
 
 namespace mms::materials::tables {
@@ -143,8 +144,9 @@ double isotropic_loss(double alpha, double place) {
 
 /// Mean over the hemisphere in units of mean_unit of what the tables say, so that what is given
 /// back sums to what they say is lost; z^2 + alpha^2 spread evenly over its logarithm.
-double mean_loss(const FacetLoss<double>& loss, int azimuths) {
-  const double alpha2 = loss.ax * loss.ay, log = std::log1p(1 / alpha2);
+template <class Loss>
+double mean_loss(const Loss& loss, double alpha2, int azimuths) {
+  const double log = std::log1p(1 / alpha2);
   double sum = 0;
   for (int i = 0; i < azimuths; ++i) {
     const double phi = (i + 0.5) / azimuths * kPi<double> / 2;
@@ -157,6 +159,72 @@ double mean_loss(const FacetLoss<double>& loss, int azimuths) {
     for (int k = 0; k < panels; ++k) sum += integrate<8>(f, double(k) / panels, (k + 1.0) / panels);
   }
   return sum / azimuths;
+}
+
+/// The loss at one facet's interface of relative index `eta`: what it reflects or refracts and
+/// other facets then take, or what leaves to the wrong side.
+double interface_loss(double alpha, double eta, double z) {
+  const Ggx<double> facets{{alpha, alpha}};
+  const Vec3d wo{std::sqrt(1 - z * z), 0, z};
+  const double so = facets.shadow(wo);
+  const auto hidden = [&](Vec3d wi) {  // G2 / G1 away from 1
+    const double s = z * facets.shadow(wi), c = std::abs(wi.z);
+    return s / (z * c + so * c + s);
+  };
+  const auto refraction = [&](Vec3d h, double c) {
+    const double g2 = refraction_g2(c, eta);
+    return (h * ((1 - eta) * (1 + eta) / (c + std::sqrt(std::max(0.0, g2)))) - wo);
+  };
+  return visible_mean(
+      facets, wo,
+      [&](Vec3d h) {
+        const double c = std::clamp(dot(wo, h), 0.0, 1.0);
+        const FresnelSplit<double> f = fresnel_split(c, eta);
+        const Vec3d r = h * (2 * c) - wo, t = normalize(refraction(h, c));
+        return f.reflected * (r.z > 0 ? hidden(r) : 1) + f.transmitted * (t.z < 0 ? hidden(t) : 1);
+      },
+      [&](Vec3d h) {
+        const double c = std::clamp(dot(wo, h), 0.0, 1.0);
+        return std::array{2 * c * h.z - z, refraction(h, c).z, refraction_g2(c, eta)};
+      },
+      1e-5);
+}
+
+/// The relative index of a place on its axis; `rising`: above 1.
+double index_at(double place, bool rising) {
+  const double x = std::clamp(place * place, 1e-7, 1 - 1e-4);
+  return rising ? (1 + x) / (1 - x) : (1 - x) / (1 + x);
+}
+
+/// How a mean's width is laid out: the inverse of axes::log_alpha.
+double from_log(double x, double largest) {
+  return axes::kMinMeanAlpha * std::pow(largest / axes::kMinMeanAlpha, x);
+}
+
+/// cos theta from its place on axes::interface_direction, by halving.
+double interface_cosine(double place, double width) {
+  double lo = 0, hi = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double angle = (lo + hi) * kPi<double> / 4;
+    (axes::interface_direction(std::sin(angle), std::cos(angle), width) < place ? lo : hi) =
+        (lo + hi) / 2;
+  }
+  return std::sin(lo * kPi<double> / 2);
+}
+
+void write_interface(std::FILE* to, const std::string& name, bool rising) {
+  using namespace axes;
+  const auto table =
+      write(to, name, Grid({kInterfaceAlpha, kIndex, kInterfaceDirection}, [&](const double* x) {
+              const double a = std::max(x[0] * x[0], 1e-5);
+              const double z = interface_cosine(std::min(x[2], 1 - kLeast), axes::width(a));
+              return interface_loss(a, index_at(x[1], rising), std::max(z, kLeast * a));
+            }));
+  const InterfaceTables tables{{table.data(), table.data()}, {}};
+  write(to, name + "Mean", Grid({kInterfaceMean, kIndex}, [&](const double* x) {
+          const double a = from_log(x[0], 1);
+          return mean_loss(InterfaceLoss<double>{a, index_at(x[1], rising), &tables}, a * a, 1);
+        }));
 }
 
 template <template <class> class Distribution>
@@ -179,16 +247,14 @@ void write_facets(std::FILE* to, const std::string& name) {
               return loss(Distribution<double>{{wide, narrow}}, {r * c, r * s, z}, 4e-5);
             }));
   const FacetTables tables{round.data(), nullptr, stretched.data(), nullptr};
-  const auto from_log = [](double x, double largest) {
-    return kMinMeanAlpha * std::pow(largest / kMinMeanAlpha, x);
-  };
   write(to, name + "Mean", Grid({kMean}, [&](const double* x) {
           const double a = from_log(x[0], 1);
-          return mean_loss({&tables, a, a}, 1);
+          return mean_loss(FacetLoss<double>{&tables, a, a}, a * a, 1);
         }));
   write(to, name + "StretchedMean", Grid({kStretchedMean, kMeanAspect}, [&](const double* x) {
           const double wide = from_log(x[0], kMaxStretched);
-          return mean_loss({&tables, wide, wide * std::pow(10, -x[1] - 1e-9)}, 12);
+          const double narrow = wide * std::pow(10, -x[1] - 1e-9);
+          return mean_loss(FacetLoss<double>{&tables, wide, narrow}, wide * narrow, 12);
         }));
 }
 
@@ -208,6 +274,8 @@ int main(int argc, char** argv) {
   }
   tables::write_facets<Ggx>(to, "kGgx");
   tables::write_facets<Beckmann>(to, "kBeckmann");
+  tables::write_interface(to, "kGgxDense", true);
+  tables::write_interface(to, "kGgxRare", false);
   if (std::fclose(to) != 0) {
     std::perror(argv[1]);
     return 1;

@@ -31,7 +31,7 @@ double integrate_crowded(const F& f, double a, double b) {
 /// Integral of f over [a, b], cut where one of `edges(x)` changes its sign.
 template <class F, class Edges>
 double integrate_between_edges(const F& f, const Edges& edges, double a, double b) {
-  constexpr int scan = 16;
+  constexpr int scan = 8;
   std::vector<double> cuts{a};
   auto before = edges(a);
   for (int i = 1; i <= scan; ++i) {
@@ -39,12 +39,20 @@ double integrate_between_edges(const F& f, const Edges& edges, double a, double 
     const auto here = edges(x);
     for (std::size_t k = 0; k < here.size(); ++k) {
       if ((here[k] > 0) == (before[k] > 0)) continue;
-      double lo = a + (b - a) * (i - 1) / scan, hi = x;
-      for (int n = 0; n < 30; ++n) {
-        const double mid = (lo + hi) / 2;
-        ((edges(mid)[k] > 0) == (before[k] > 0) ? lo : hi) = mid;
+      // Regula falsi; an end that stays counts half (the Illinois rule).
+      double lo = a + (b - a) * (i - 1) / scan, hi = x, at_lo = before[k], at_hi = here[k];
+      double cut = (lo + hi) / 2;
+      for (int n = 0; n < 10 && hi > lo; ++n) {
+        cut = (lo * at_hi - hi * at_lo) / (at_hi - at_lo);
+        const double at = edges(cut)[k];
+        if (std::abs(at) < 1e-12) break;
+        if ((at > 0) == (at_hi > 0)) {
+          hi = cut, at_hi = at, at_lo /= 2;
+        } else {
+          lo = cut, at_lo = at, at_hi /= 2;
+        }
       }
-      cuts.push_back((lo + hi) / 2);
+      cuts.push_back(cut);
     }
     before = here;
   }

@@ -32,6 +32,24 @@ inline std::vector<Case> smooth_cases() {
   put("matte", matte(1), 1);
   put("translucent", translucent(ramp(0.2, 0.9)));
   for (double gloss : {0.0, 0.5, 4.0, 40.0, 1000.0}) put("glossy", glossy(1, gloss), 1);
+  put("glossy_product", tinted(Lobe::GlossyProduct, ramp(0.3, 0.8), {20, 60}), 0);
+  put("glossy_product, latitude alone", tinted(Lobe::GlossyProduct, 1, {30, 0}), 1);
+  put("glossy_product, longitude alone", tinted(Lobe::GlossyProduct, 1, {0, 30}), 1);
+  put("glossy_back", tinted(Lobe::GlossyBack, 1, {200, 200}), 1);
+  put("glossy_through", tinted(Lobe::GlossyThrough, 1, {15, 100}));
+  for (double sigma : {0.1, 0.8}) put("oren_nayar", tinted(Lobe::OrenNayar, 0.7, {sigma}));
+  for (double r : {0.2, 1.0}) put("rough_matte", tinted(Lobe::RoughMatte, 1, {r}), 1);
+  put("rough_matte, coloured", tinted(Lobe::RoughMatte, ramp(0.2, 0.9), {0.6}));
+  for (double n : {0.0, 2.5, 200.0}) {
+    put("phong", tinted(Lobe::Phong, 1, {n}));
+    put("max_phong", tinted(Lobe::MaxPhong, ramp(0.3, 1), {n}));
+  }
+  put("spot", tinted(Lobe::Spot, 1, {0.2, 0.5}));
+  put("ward 0.2", tinted(Lobe::Ward, 1, {0.2, 0}));
+  put("ward 0.7, anisotropic", tinted(Lobe::Ward, ramp(0.3, 1), {0.7, 0.8}));
+  put("ashikhmin_shirley", tinted(Lobe::AshikhminShirley, ramp(0.1, 0.9), {100, 10}));
+  put("ashikhmin_shirley, round", tinted(Lobe::AshikhminShirley, 1, {3, 3}));
+  for (double r : {0.15, 0.8}) put("sheen", tinted(Lobe::Sheen, 1, {r}));
   put("microfacet 0.1", microfacet(1, 0.1));
   put("microfacet 0.5", microfacet(ramp(0.3, 0.8), 0.5));
   put("microfacet 1", microfacet(1, 1));
@@ -46,6 +64,8 @@ inline std::vector<Case> smooth_cases() {
   put("dielectric dispersive, 0.5", dielectric(ramp(1.6, 1.4), 0.5));
   put("dielectric 1.1, 0.8", dielectric(1.1, 0.8));
   put("dielectric 2.5, 0.6, tinted", dielectric(2.5, 0.6, 0.5, ramp(0.2, 0.8)));
+  put("film_conductor", film_conductor(2.5, ramp(3, 4), 1.5, 400e-9, ramp(400e-9, 700e-9), 0.4));
+  put("coat absorbing", coat(glossy(1, 40), matte(ramp(0.9, 0.5)), 0.5, ramp(0.1, 2), 1.5));
   put("mix", mix(matte(ramp(0.1, 0.9)), glossy(1, 20), ramp(0.2, 0.7)));
   put("coat", fresnel_mix(matte(0.8), glossy(1, 40), ramp(1.6, 1.4)));
   put("coat of mirror", fresnel_mix(matte(0.8), mirror(1), 1.5));
