@@ -17,6 +17,9 @@ renderer::View view_of(const PictureOptions& options);
 Result<renderer::Done> check_output(const std::vector<std::string>& paths,
                                     const PictureOptions& options);
 
+/// A word as a shell reads it back.
+std::string quoted(const std::string& word);
+
 /// What the picture at `path` says of itself. Equal sums say the same, however they were made: all
 /// but the command line, which only .exr pictures hold.
 renderer::Metadata metadata(const std::string& path, const renderer::FilmKey& key,

@@ -11,9 +11,6 @@
 
 namespace mms::tools {
 
-namespace {
-
-/// A word as a shell reads it back.
 std::string quoted(const std::string& word) {
   const auto plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) ||
@@ -24,6 +21,8 @@ std::string quoted(const std::string& word) {
   for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
 }
+
+namespace {
 
 /// The words this process was started with, quoted for a shell.
 std::string command_line() {
