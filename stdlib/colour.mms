@@ -16,7 +16,9 @@ real luminance(spectrum s)
     real spread(real l) = cosh(7.2e6 * (l - 538nm))^2;
     weight = intrinsic::values(cie_y($wavelength) * spectral(#spread));
     value  = intrinsic::values(s);
-    return dot(weight, value) / fold(#+, 0, weight);
+    mean   = dot(weight, value) / fold(#+, 0, weight);
+    // a mean is between what it is the mean of, however it was rounded
+    return clamp(mean, fold(#min, value[0], value), fold(#max, value[0], value));
 
 /// [red, green, blue], linear, of [X, Y, Z] (IEC 61966-2-1; white is D65).
 /// >>> rgb_of_xyz([0.95, 1, 1.09])

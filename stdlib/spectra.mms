@@ -142,8 +142,13 @@ spectrum spectral(function(real) -> real f, spectrum s) = intrinsic::spectral(f,
 spectrum triangular_band(real centre, width) = max(1.0 - abs($wavelength - centre) / width, 0.0);
 
 /// A table of measured values: `values[k]` at the wavelength `wavelengths[k]`, in metres and growing;
-/// straight between, level outside.
+/// straight between, level outside; n at least 2. A table may stand in a file of its own, as constants
+/// of a script that is imported.
 /// >>> tabulated([400nm, 700nm], [0.5, 0.5])
 /// 0.5
-spectrum tabulated(real[n] wavelengths, values) =
-    spectral(function(l) -> ramp(l, wavelengths, values));
+spectrum tabulated(real[n] wavelengths, values)
+    spectrum passed(integer k)
+        width = max(wavelengths[k + 1] - wavelengths[k], 1e-30);
+        return clamp(($wavelength - wavelengths[k]) / width, 0.0, 1.0);
+    return fold(#+, spectrum(values[0]), array(n - 1, function(k) ->
+        (values[k + 1] - values[k]) * passed(k)));

@@ -71,8 +71,7 @@ std::string_view enclosed(const vm::Builtin& row) {
 /// Later functions of the same name have none.
 class Pictures {
  public:
-  std::string of(std::string_view module, std::string_view header) {
-    if (module != "noise" && module != "patterns") return "";
+  std::string of(std::string_view header) {
     const std::string_view call = header.substr(0, header.find('('));
     const std::string name(call.substr(call.rfind(' ') + 1));
     constexpr std::string_view kPictured = MMS_PICTURED;
@@ -86,9 +85,8 @@ class Pictures {
 };
 
 std::string entry(const vm::Builtin& row, Pictures& pictures) {
-  std::string text =
-      fmt::format("`{}`\n\n{}{}{}{}\n", row.signature, pictures.of(row.module, row.signature),
-                  row.doc, accuracy(row), enclosed(row));
+  std::string text = fmt::format("`{}`\n\n{}{}{}{}\n", row.signature, pictures.of(row.signature),
+                                 row.doc, accuracy(row), enclosed(row));
   if (!row.example.empty()) text += fmt::format("\n```\n{}\n```\n", row.example);
   return text + "\n";
 }
@@ -104,8 +102,7 @@ std::string module_entries(const lang::Library::Module& module, Pictures& pictur
     const lang::Function& f = graph[handle];
     if (f.doc.empty()) continue;
     const std::string header = source->text.substr(f.header.begin, f.header.end - f.header.begin);
-    text += fmt::format("`{}`\n\n{}{}\n", header, pictures.of(module.name, header),
-                        doc_markdown(f.doc));
+    text += fmt::format("`{}`\n\n{}{}\n", header, pictures.of(header), doc_markdown(f.doc));
   }
   return text;
 }

@@ -117,12 +117,13 @@ TEST_CASE("rgb_sigmoid comes back as the same colour over the sRGB cube, rgb abo
                   "double {:.3f} {:.3f} {:.2f}; rgb {:.2f} {:.2f} {:.1f}",
                   in_float.mean, in_float.median, in_float.worst, in_double.mean, in_double.median,
                   in_double.worst, table.mean, table.median, table.worst));
-  // Sums of 10 nm in place of 1 nm make the median; 2.3 is what the eye can just tell apart. Two
-  // blues at the edge of the cube, whose curve is nearly a step, are not reached in 20 steps.
-  CHECK(in_float.median < 0.1);
-  CHECK(in_float.mean < 0.3);
-  CHECK(in_double.median < 0.1);
-  CHECK(in_float.worst < 20);
+  // Sums of 10 nm in place of 1 nm make the median; 2.3 is what the eye can just tell apart. At the
+  // edges of the cube curves are nearly steps, and their coefficients hundreds: floats feel it.
+  CHECK(in_float.median < 0.05);
+  CHECK(in_float.mean < 0.1);
+  CHECK(in_float.worst < 5);
+  CHECK(in_double.mean < 0.05);
+  CHECK(in_double.worst < 1);
   CHECK(table.mean > in_float.mean);
 }
 

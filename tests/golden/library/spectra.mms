@@ -42,3 +42,8 @@ real total(real nm, sum) = select
 end;
 real d3() = total(100, 0) * pi * (695700.0 / 149597870.7)^2;  // expect~1e-3: 1361
 logic d4() = luminance(sunlight(90deg)) > luminance(sunlight(10deg));  // expect: true
+// Measured tables: the ramp through the rows, jumps where two wavelengths are equal.
+const real[5] wave = [400nm, 450nm, 520nm, 520nm, 700nm];
+const real[5] paint = [0.1, 0.5, 0.2, 0.8, 0.6];
+logic same(spectrum s, t) = luminance((s - t)^2) < 1e-12;
+logic e0() = same(tabulated(wave, paint), spectral(function(l) -> ramp(l, wave, paint)));  // expect: true
