@@ -192,7 +192,10 @@ class Frame {
     for (uint32_t r = 0; r < s.repeats; ++r) {
       for (uint32_t k = 0; k < s.args; ++k) m_.in[k] = at<const void>(*arg++);
       for (uint32_t k = 0; k < s.results; ++k) m_.out[k] = at<void>(*result++);
-      (sizeof(R) == sizeof(float) ? s.f32 : s.f64)(m_.in, m_.out, n_);
+      if (const auto kernel = sizeof(R) == sizeof(float) ? s.image32 : s.image64)
+        kernel(m_.images, m_.image_count, m_.in, m_.out, n_);
+      else
+        (sizeof(R) == sizeof(float) ? s.f32 : s.f64)(m_.in, m_.out, n_);
     }
   }
 
