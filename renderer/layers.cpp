@@ -182,7 +182,7 @@ class Gaze {
       if (!s) continue;
       Carried c = v.from->carried;
       c.happened(s->f, s->pdf);
-      l.albedo += c.weighted(0) * (1.0f / kDirections);
+      l.albedo += c.weighted(0, Estimator::Clustered) * (1.0f / kDirections);
     }
   }
 

@@ -252,6 +252,8 @@ void Interpreter<R>::run(const Executable& exe, std::uint32_t function, const In
   m.functions = code.functions.data();
   m.sites = code.sites.data();
   m.operands = code.operands.data();
+  m.images = code.image_table.data();
+  m.image_count = int(code.image_table.size());
   m.inputs = reinterpret_cast<std::byte*>(const_cast<R*>(in.data()));  // only read
   m.input_stride = std::size_t(round_up(in.width())) * sizeof(R);
   m.lanes = round_up(lanes);

@@ -193,7 +193,11 @@ class Frame {
     for (uint32_t r = 0; r < s.repeats; ++r) {
       for (uint32_t k = 0; k < s.args; ++k) m_.in[k] = at<const void>(*arg++);
       for (uint32_t k = 0; k < s.results; ++k) m_.out[k] = at<void>(*result++);
-      (sizeof(R) == sizeof(float) ? s.f32 : s.f64)(m_.in, m_.out, once ? kLaneMultiple : n_);
+      const int lanes = once ? kLaneMultiple : n_;
+      if (const auto kernel = sizeof(R) == sizeof(float) ? s.image32 : s.image64)
+        kernel(m_.images, m_.image_count, m_.in, m_.out, lanes);
+      else
+        (sizeof(R) == sizeof(float) ? s.f32 : s.f64)(m_.in, m_.out, lanes);
       for (uint32_t k = 0; once && k < s.results; ++k) spread(static_cast<int32_t*>(m_.out[k]));
     }
   }

@@ -23,6 +23,8 @@ struct Machine {
   const Operand* operands;
 
   bool uniform;  ///< the inputs of the frame are the same in all lanes
+  const Image* const* images;
+  int image_count;
   std::byte* constants;
   std::byte* inputs;
   std::size_t constant_stride, input_stride;  ///< bytes between blocks
