@@ -35,6 +35,8 @@ Function simplex1, simplex2, simplex3, simplex4;
 Function simplex_of1, simplex_of2, simplex_of3, simplex_of4;
 Function perlin_derivative1, perlin_derivative2, perlin_derivative3, perlin_derivative4;
 Function hash1, hash2, hash3, hash4, cells1, cells2, cells3, cells4;
+Function worley_ways1, worley_ways2, worley_ways3, worley_ways4;
+Function worley_border1, worley_border2, worley_border3, worley_border4;
 Function worley2, worley3, worley_pair2, worley_pair3;
 
 Function planck, sellmeier, cauchy, fresnel, fresnel_conductor;

@@ -66,6 +66,15 @@ void worley(const Interval* in, Interval* out, int distances) {
   }
 }
 
+/// A way between a point and the middle of a cell that was searched is at most 2.5 along each axis.
+template <int N>
+void worley_found(const Interval* in, Interval* out, int points) {
+  const Interval& jitter = in[2 * N + 1];
+  const double most = (2.5 + 0.5 * jitter.magnitude()) * (1 + 0x1p-20);
+  const bool number = finite(in, N) && !jitter.contains_infinity();
+  for (int k = 0; k < points * N; ++k) out[k] = {-most, most, !number};
+}
+
 }  // namespace
 
 // A functor over one value type at N coordinates.
@@ -88,6 +97,15 @@ void cells4(const Interval* in, Interval* out) {
   cells<4>(in, out, MMS_AT(4, Cells4, x[0], x[1], x[2], x[3]));
 }
 #undef MMS_AT
+
+void worley_ways1(const Interval* in, Interval* out) { worley_found<1>(in, out, 3); }
+void worley_ways2(const Interval* in, Interval* out) { worley_found<2>(in, out, 3); }
+void worley_ways3(const Interval* in, Interval* out) { worley_found<3>(in, out, 3); }
+void worley_ways4(const Interval* in, Interval* out) { worley_found<4>(in, out, 3); }
+void worley_border1(const Interval* in, Interval* out) { worley_found<1>(in, out, 2); }
+void worley_border2(const Interval* in, Interval* out) { worley_found<2>(in, out, 2); }
+void worley_border3(const Interval* in, Interval* out) { worley_found<3>(in, out, 2); }
+void worley_border4(const Interval* in, Interval* out) { worley_found<4>(in, out, 2); }
 
 void worley2(const Interval* in, Interval* out) { worley<2>(in, out, 1); }
 void worley3(const Interval* in, Interval* out) { worley<3>(in, out, 1); }
