@@ -164,9 +164,12 @@ Flights::Need Flights::advance(Flight& f, Crossings& crossings, const PathView& 
         if (f.medium_object != object) return Need::Coefficients;
         if (through_homogeneous(f, to - f.t, path)) return Need::Nothing;
       } else {
-        const float step = -std::log1p(-random(f, path)) / float(world_.majorants[object]);
-        if (f.t + step < to) {  // never where the medium is empty
-          f.t += step;
+        const double depth = -std::log1p(-random(f, path));
+        const MajorantGrid::Collision c =
+            world_.majorants[object].collide(Vec3d(f.origin), Vec3d(f.direction), f.t, to, depth);
+        if (c.t < to) {  // never where the medium is empty
+          f.t = float(c.t);
+          f.majorant = c.majorant;
           return Need::Collision;
         }
       }
@@ -286,7 +289,7 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
 void Flights::collide(Flight& f, const PathView& path) {
   ++counters_.media_steps;
   ++counters_.medium_samples;
-  const float majorant = float(world_.majorants[f.medium_object]);
+  const float majorant = f.majorant;
   f.medium_object = -1;  // valid at this point only
   bool denser = false;
   Spectrumf scattered, nothing;  // probabilities, per wavelength; what is left is absorbed

@@ -54,6 +54,7 @@ struct Flight {
   Media media;
   Carried carried;
   int medium_object = -1;                      ///< whose coefficients these are
+  float majorant = 0;                          ///< at the tentative collision it has come to, 1/m
   Spectrumf scattering, absorption, emission;  ///< 1/m, 1/m, W m^-3 sr^-1 nm^-1
 };
 

@@ -115,7 +115,7 @@ void Integrator::start(std::span<const PixelSample> samples, std::span<FilmSampl
     const PixelSample& s = samples[i];
     Path& p = paths_[i];
     p.sampler = Sampler(world_.seed, s.x, s.y, std::uint64_t(s.sample), world_.generator);
-    p.cluster = sample_cluster(p.sampler(kWavelength));
+    p.cluster = sample_cluster(cluster_number(p.sampler(kWavelength)));
     FilmSample& point = stream[i];
     point.x = s.x + double(p.sampler(kFilmX));
     point.y = s.y + double(p.sampler(kFilmY));

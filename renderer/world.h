@@ -7,6 +7,7 @@
 #include "renderer/accel.h"
 #include "renderer/camera.h"
 #include "renderer/lights.h"
+#include "renderer/majorants.h"
 #include "renderer/scripts.h"
 #include "renderer/switches.h"
 
@@ -48,7 +49,7 @@ struct World {
   bool plain = true;         ///< no volume and nothing semi-transparent: rays end where they hit
   std::uint64_t seed = 0;
   int max_depth = 0;
-  std::vector<double> majorants;  ///< of each object's volume, if it varies: Findings
+  std::vector<MajorantGrid> majorants;  ///< of each object's volume, if it varies: Findings
   Estimator estimator = Estimator::Clustered;
   Generator generator = Generator::Niederreiter;
 

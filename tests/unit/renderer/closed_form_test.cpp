@@ -7,6 +7,7 @@
 
 #include "base/quadrature.h"
 #include "base/warp.h"
+#include "renderer/cluster.h"
 #include "renderer/sampler.h"
 #include "scenes.h"
 #include "tests/sanitized.h"
@@ -205,7 +206,8 @@ TEST_CASE("a prism turns light by its index: the angle of the path's own wavelen
     int met = 0, near = 0;
     for (int i = 0; i < side * side; ++i) {
       const double nm =
-          sample_wavelengths(Sampler(o.seed, i % side, i / side, 0)(kWavelength)).nm[0];
+          sample_wavelengths(cluster_number(Sampler(o.seed, i % side, i / side, 0)(kWavelength)))
+              .nm[0];
       if (std::abs(nm - line) > 4) continue;
       ++near;
       if (!(flat.xyz[i][1] > 0)) continue;

@@ -67,7 +67,7 @@ TEST_CASE("furnace: a cloud that only scatters vanishes, homogeneous and by delt
   HandProgram h;
   vm::Descriptor& d = h.volume("x", 1.5, 0);
   SUBCASE("closed form") {}
-  SUBCASE("delta tracking, half of the collisions fictitious") {
+  SUBCASE("delta tracking") {
     d.outputs[int(vm::Output::Scattering)].variables = 1u << int(vm::Variable::Position);
     for (vm::Entry* e : HandProgram::entries(d)) e->bound = h.real(3);
   }
