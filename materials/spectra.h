@@ -2,14 +2,11 @@
 #pragma once
 
 /// \file
-/// Spectra by formula and by table: black bodies, standard illuminants, the thesis' RGB basis, and
-/// refractive indices. Tables are linear between rows and hold their end values outside.
+/// Spectra by formula: black bodies, the thesis' RGB basis, refractive indices; and the illuminants
+/// that the renderer itself needs, of optical_tables.h.
 /// Every function is pure. The templates are shared with the script library.
 
 #include <cmath>
-#include <optional>
-#include <span>
-#include <string_view>
 
 namespace mms::materials {
 
@@ -67,39 +64,5 @@ double illuminant_a(double lambda_nm);
 
 /// Luminance (Y of xyz_of_spectrum) of illuminant_d65: divide by it for a light of luminance 1.
 double illuminant_d65_luminance();
-
-/// n + i k.
-struct ComplexIndex {
-  double n, k;
-};
-
-/// Index of a table, at a wavelength. A glass has k = 0.
-class IndexTable {
- public:
-  struct Row {
-    double lambda_nm, n, k = 0;
-  };
-  constexpr IndexTable(std::string_view name, std::span<const Row> rows)
-      : name_(name), rows_(rows) {}
-
-  std::string_view name() const { return name_; }
-  /// Ascending wavelengths.
-  std::span<const Row> rows() const { return rows_; }
-  ComplexIndex at(double lambda_nm) const;
-
- private:
-  std::string_view name_;
-  std::span<const Row> rows_;
-};
-
-/// silver, aluminium, gold, copper, brass, and the oxides magnesium_oxide (its table stops at
-/// 768 nm) and titanium_dioxide.
-std::span<const IndexTable> conductors();
-
-/// BK7, BAF10, FK51A, LASF9, SF5, SF10, SF11.
-std::span<const IndexTable> glasses();
-
-/// The table with that name, or null.
-const IndexTable* find_index(std::span<const IndexTable> tables, std::string_view name);
 
 }  // namespace mms::materials

@@ -114,8 +114,8 @@ void Integrator::start(std::span<const PixelSample> samples, std::span<FilmSampl
   for (int i = 0; i < int(samples.size()); ++i) {
     const PixelSample& s = samples[i];
     Path& p = paths_[i];
-    p.sampler = Sampler(world_.seed, s.x, s.y, std::uint64_t(s.sample));
-    p.cluster = sample_cluster(p.sampler(kWavelength));
+    p.sampler = Sampler(world_.seed, s.x, s.y, std::uint64_t(s.sample), world_.generator);
+    p.cluster = sample_cluster(cluster_number(p.sampler(kWavelength)));
     FilmSample& point = stream[i];
     point.x = s.x + double(p.sampler(kFilmX));
     point.y = s.y + double(p.sampler(kFilmY));
@@ -134,7 +134,7 @@ void Integrator::gather() {
     if (f.end == End::Free) {
       const Vec3d d(f.direction);
       const Spectrumf weight =
-          f.carried.weighted(world_.lights.pdf_environment(Vec3d(f.origin), d));
+          f.carried.weighted(world_.lights.pdf_environment(Vec3d(f.origin), d), world_.estimator);
       p.radiance += weight * world_.lights.environment(d, p.cluster);
     } else if (f.end == End::Surface || f.end == End::Medium) {
       const bool medium = f.end == End::Medium;
@@ -155,7 +155,7 @@ void Integrator::add_emission(const Vertex& v, const Spectrumf& emitted) {
   if (emitted.is_black() || v.from->emission_seen) return;
   const double light =
       world_.lights.pdf(Vec3d(v.from->origin), v.from->hit.object, v.point.surface);
-  paths_[v.from->path].radiance += v.from->carried.weighted(light) * emitted;
+  paths_[v.from->path].radiance += v.from->carried.weighted(light, world_.estimator) * emitted;
 }
 
 /// One batch: vertices that wear the same surface or lie in volumes of the same descriptor.
@@ -349,7 +349,8 @@ void Integrator::light_connections() {
   flights_.fly(shadows_, views_);
   for (std::size_t i = 0; i < kept; ++i)
     if (shadows_[i].end == End::Free)
-      paths_[shadows_[i].path].radiance += shadows_[i].carried.weighted(densities[i]);
+      paths_[shadows_[i].path].radiance +=
+          shadows_[i].carried.weighted(densities[i], world_.estimator);
 }
 
 /// Russian roulette by the mean contribution that the path still carries. It is the same whatever

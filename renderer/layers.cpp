@@ -66,6 +66,8 @@ class Gaze {
     ScriptPoint point;
   };
 
+  /// Weight of what the end of `f` sends back.
+  static Spectrumf arriving(const Flight& f) { return f.carried.weighted(0, Estimator::Clustered); }
   int surfaces() const { return int(world_.scene.surfaces.size()); }
 
   void start(int y, int x0, int x1) {
@@ -89,8 +91,7 @@ class Gaze {
     for (const Flight& f : rays_) {
       Look& l = looks_[f.path];
       if (f.end == End::Free)
-        l.radiance +=
-            f.carried.weighted(0) * world_.lights.environment(Vec3d(f.direction), l.cluster);
+        l.radiance += arriving(f) * world_.lights.environment(Vec3d(f.direction), l.cluster);
       if (f.end != End::Surface && f.end != End::Medium) continue;
       const bool medium = f.end == End::Medium;
       l.kind = medium ? surfaces() + world_.scene.objects[f.media.current()].volume
@@ -121,7 +122,7 @@ class Gaze {
   void look_up(const FixedSurface& surface, const Vertex& v) {
     const SurfacePoint& s = v.point.surface;
     Look& l = looks_[v.from->path];
-    const Spectrumf weight = v.from->carried.weighted(0);
+    const Spectrumf weight = arriving(*v.from);
     l.normal = s.normal;
     l.albedo = weight * fixed_albedo(surface, *v.point.object, s.position, l.cluster);
     if (!v.from->emission_seen)
@@ -166,9 +167,9 @@ class Gaze {
       return s;
     });
     if (c.emits && !v.from->emission_seen)
-      l.radiance += v.from->carried.weighted(0) *
-                    scripted_emission(world_.compiled, scripts_, d, EntryKind::Shade, lane,
-                                      v.point.surface, v.point.view, scratch_);
+      l.radiance +=
+          arriving(*v.from) * scripted_emission(world_.compiled, scripts_, d, EntryKind::Shade,
+                                                lane, v.point.surface, v.point.view, scratch_);
   }
 
   /// The albedo, by directions that `sample` draws.
@@ -181,7 +182,7 @@ class Gaze {
       if (!s) continue;
       Carried c = v.from->carried;
       c.happened(s->f, s->pdf);
-      l.albedo += c.weighted(0) * (1.0f / kDirections);
+      l.albedo += c.weighted(0, Estimator::Clustered) * (1.0f / kDirections);
     }
   }
 

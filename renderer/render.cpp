@@ -62,7 +62,9 @@ Result<Rendered> render(const vm::Program& program, const Scene& scene,
               plain,
               options.seed,
               options.max_depth,
-              std::move(findings->majorants)};
+              std::move(findings->majorants),
+              options.estimator,
+              options.generator};
   for (int i = 0; i < int(data.objects.size()); ++i)
     world.sealed.push_back(sealed(data, compiled, i));
   for (int i = 0; i < int(data.objects.size()); ++i)

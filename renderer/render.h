@@ -15,6 +15,7 @@
 
 #include "base/result.h"
 #include "renderer/filter.h"
+#include "renderer/switches.h"
 #include "vm/program.h"
 
 namespace mms::renderer {
@@ -74,6 +75,8 @@ struct RenderOptions {
   std::uint64_t seed = 0;
   int max_depth = 64;  ///< scattering events of a path, at least 1
   FilterShape filter = FilterShape::BlackmanHarris;
+  Estimator estimator = Estimator::Clustered;
+  Generator generator = Generator::Niederreiter;
   /// What is there already, of the same scene and options: only other samples are made. May be
   /// null.
   std::shared_ptr<const PartialFilm> begin_with;

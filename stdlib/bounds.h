@@ -21,18 +21,25 @@ Function abs_integer, sign_integer, min_integer, max_integer, clamp_integer;
 Function complex_exp, complex_log, complex_sqrt, complex_sin, complex_cos, complex_tan;
 Function complex_sinh, complex_cosh, complex_tanh, complex_pow, complex_powi, complex_abs;
 Function complex_asin, complex_acos, complex_atan, complex_asinh, complex_acosh, complex_atanh;
-Function conj, arg, re, im, polar;
+Function polar;
 
 Function perlin1, perlin2, perlin3, perlin4;
 Function perlin_gradient1, perlin_gradient2, perlin_gradient3, perlin_gradient4;
+Function perlin_of1, perlin_of2, perlin_of3, perlin_of4;
+Function perlin_gradient_of1, perlin_gradient_of2, perlin_gradient_of3, perlin_gradient_of4;
+Function valuenoise1, valuenoise2, valuenoise3, valuenoise4;
+Function valuenoise_of1, valuenoise_of2, valuenoise_of3, valuenoise_of4;
+Function valuenoise_gradient_of1, valuenoise_gradient_of2, valuenoise_gradient_of3,
+    valuenoise_gradient_of4;
+Function simplex1, simplex2, simplex3, simplex4;
+Function simplex_of1, simplex_of2, simplex_of3, simplex_of4;
 Function perlin_derivative1, perlin_derivative2, perlin_derivative3, perlin_derivative4;
 Function hash1, hash2, hash3, hash4, cells1, cells2, cells3, cells4;
+Function worley_ways1, worley_ways2, worley_ways3, worley_ways4;
+Function worley_border1, worley_border2, worley_border3, worley_border4;
 Function worley2, worley3, worley_pair2, worley_pair3;
 
-Function planck, illuminant_d65, illuminant_a, sellmeier, cauchy, fresnel, fresnel_conductor;
-Function gold_n, gold_k, silver_n, silver_k, copper_n, copper_k, aluminium_n, aluminium_k;
-Function illuminant_d65_slope, illuminant_a_slope;
-Function gold_n_slope, gold_k_slope, silver_n_slope, silver_k_slope;
-Function copper_n_slope, copper_k_slope, aluminium_n_slope, aluminium_k_slope;
+Function planck, sellmeier, cauchy, fresnel, fresnel_conductor;
+Function optical_table, optical_table_slope;
 
 }  // namespace mms::stdlib::bounds

@@ -271,13 +271,6 @@ void complex_powi(const Interval* in, Interval* out) {
 }
 
 void complex_abs(const Interval* in, Interval* out) { out[0] = length(in[0], in[1]); }
-void arg(const Interval* in, Interval* out) { out[0] = angle(in[1], in[0]); }
-void re(const Interval* in, Interval* out) { out[0] = in[0]; }
-void im(const Interval* in, Interval* out) { out[0] = in[1]; }
-void conj(const Interval* in, Interval* out) {
-  out[0] = in[0];
-  out[1] = minus(in[1]);
-}
 void polar(const Interval* in, Interval* out) {
   polar_of(in[0], in[1], out);
   with_infinities(in, out);

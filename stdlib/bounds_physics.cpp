@@ -24,68 +24,21 @@ double planck_at(double l, double t) {
   return 1.19104297239718841e-25 / (l * l * l * l * l) / std::expm1(x);
 }
 
-/// Extremes of a table that is linear between rows and held outside, over [lo, hi].
-template <class At, class Node>
-Interval of_table(double lo, double hi, int rows, Node node, At at) {
-  Interval r = join(Interval::point(at(lo)), Interval::point(at(hi)));
-  for (int k = 0; k < rows; ++k)
-    if (const double x = node(k); lo <= x && x <= hi) r = join(r, Interval::point(at(x)));
-  // Both ends of a row, whichever the rounding of the argument finds.
-  const double slack = 1e-12 * r.magnitude();
-  return {r.lo - slack, r.hi + slack, false};
-}
-/// All of a table where the argument may be NaN, of which kernels make a number.
-Interval table_argument(const Interval& x) { return x.nan ? Interval{-kInf, kInf, false} : x; }
-
-void illuminant(const double* table, const Interval* in, Interval* out) {
-  const Interval x = table_argument(in[0]);
-  out[0] = of_table(
-      x.lo, x.hi, 107, [](int k) { return (300 + 5 * k) * 1e-9; },
-      [&](double l) { return tables::relative_power(table, l); });
+/// Tables that the argument may mean.
+struct Tables {
+  int first, last;
+};
+Tables tables_of(const Interval& number) {
+  if (number.nan) return {0, materials::kOpticalTables - 1};
+  return {tables::table_number(number.lo), tables::table_number(number.hi)};
 }
 
-template <std::size_t N>
-void metal(const tables::MetalRow (&table)[N], bool imaginary, const Interval* in, Interval* out) {
-  const Interval x = table_argument(in[0]);
-  const auto held = [&](double l) {
-    return std::clamp(l, table[0].lambda_nm * 1e-9, table[N - 1].lambda_nm * 1e-9);
-  };
-  out[0] = of_table(
-      x.lo, x.hi, int(N), [&](int k) { return table[k].lambda_nm * 1e-9; },
-      [&](double l) { return tables::metal_index(table, held(l), imaginary); });
-  // A wavelength on the edge of a row may be taken for the next, a little outside of which it then
-  // is; the slopes are gentle.
-  const double slack = 1e-5 * out[0].magnitude();
-  // A negative wavelength finds the last row from below.
-  if (x.lo <= 0)
-    out[0] = join(out[0], Interval::point(imaginary ? table[N - 2].k : table[N - 2].n));
-  out[0] = {out[0].lo - slack, out[0].hi + slack, false};
-}
-
-/// Slopes of the rows of a table that an argument may find, and the 0 beside them.
-template <class X, class Y>
-void slopes(const Interval& x, int rows, X x_of, Y y_of, Interval* out) {
-  Interval r = Interval::point(0);
-  const auto around = [](double v, double way) { return v * (1 + way * 1e-6); };
-  for (int k = 0; k + 1 < rows; ++k) {
-    const double a = x_of(k), b = x_of(k + 1);
-    if (around(b, 1) < x.lo || around(a, -1) > x.hi) continue;
-    r = join(r, Interval::point((y_of(k + 1) - y_of(k)) / (b - a)));
-  }
-  const double slack = 1e-9 * r.magnitude();
-  out[0] = {r.lo - slack, r.hi + slack, false};
-}
-void illuminant_slope(const double* table, const Interval* in, Interval* out) {
-  slopes(
-      in[0], 107, [](int k) { return (300 + 5 * k) * 1e-9; },
-      [&](int k) { return table[k] * 0.01; }, out);
-}
-template <std::size_t N>
-void metal_slope(const tables::MetalRow (&table)[N], bool imaginary, const Interval* in,
-                 Interval* out) {
-  slopes(
-      in[0], int(N), [&](int k) { return table[k].lambda_nm * 1e-9; },
-      [&](int k) { return imaginary ? table[k].k : table[k].n; }, out);
+/// What `join_row(table, k)` gives over the rows of a table that [lo, hi], in nanometres, touches.
+/// A hair more: kernels round the wavelength on the way.
+template <class F>
+void for_rows(const materials::OpticalTable& t, double lo, double hi, F join_row) {
+  for (int k = 0; k + 1 < t.rows; ++k)
+    if (t.nm[k] <= hi * (1 + 1e-12) && lo * (1 - 1e-12) <= t.nm[k + 1]) join_row(k);
 }
 
 }  // namespace
@@ -113,9 +66,6 @@ void planck(const Interval* in, Interval* out) {
   out[0] =
       extreme ? Interval{0, kInf, true} : Interval{low * (1 - slack), high * (1 + slack), false};
 }
-
-void illuminant_d65(const Interval* in, Interval* out) { illuminant(tables::kD65, in, out); }
-void illuminant_a(const Interval* in, Interval* out) { illuminant(tables::kIlluminantA, in, out); }
 
 /// Each term as b + b c / (l^2 - c), where l^2 occurs once.
 void sellmeier(const Interval* in, Interval* out) {
@@ -221,42 +171,37 @@ void fresnel_conductor(const Interval* in, Interval* out) {
   out[0] = {0, physical ? 1 : kInf, nan || !physical};
 }
 
-void gold_n(const Interval* in, Interval* out) { metal(tables::k_gold, false, in, out); }
-void gold_k(const Interval* in, Interval* out) { metal(tables::k_gold, true, in, out); }
-void silver_n(const Interval* in, Interval* out) { metal(tables::k_silver, false, in, out); }
-void silver_k(const Interval* in, Interval* out) { metal(tables::k_silver, true, in, out); }
-void copper_n(const Interval* in, Interval* out) { metal(tables::k_copper, false, in, out); }
-void copper_k(const Interval* in, Interval* out) { metal(tables::k_copper, true, in, out); }
-void aluminium_n(const Interval* in, Interval* out) { metal(tables::k_aluminium, false, in, out); }
-void aluminium_k(const Interval* in, Interval* out) { metal(tables::k_aluminium, true, in, out); }
+/// Extremes are at the ends of the argument, or at rows between them.
+void optical_table(const Interval* in, Interval* out) {
+  // Of NaN kernels make a number of the table.
+  const bool any = in[0].nan;
+  // Kernels round the wavelength, and where the curve is between rows.
+  const auto moved = [](double m, double by) { return m * 1e9 + by * std::fabs(m * 1e9); };
+  const double lo = any ? -kInf : moved(in[0].lo, -1e-12), hi = any ? kInf : moved(in[0].hi, 1e-12);
+  const Tables which = tables_of(in[1]);
+  Interval r{kInf, -kInf, false};
+  for (int n = which.first; n <= which.last; ++n) {
+    const materials::OpticalTable& t = materials::optical_tables[n];
+    for (const double x : {lo, hi}) r = join(r, Interval::point(t.at(x)));
+    for (int k = 0; k < t.rows; ++k)
+      if (lo <= t.nm[k] && t.nm[k] <= hi) r = join(r, Interval::point(t.value[k]));
+  }
+  const double slack = 1e-15 * r.magnitude();
+  out[0] = {r.lo - slack, r.hi + slack, false};
+}
 
-void illuminant_d65_slope(const Interval* in, Interval* out) {
-  illuminant_slope(tables::kD65, in, out);
-}
-void illuminant_a_slope(const Interval* in, Interval* out) {
-  illuminant_slope(tables::kIlluminantA, in, out);
-}
-void gold_n_slope(const Interval* in, Interval* out) {
-  metal_slope(tables::k_gold, false, in, out);
-}
-void gold_k_slope(const Interval* in, Interval* out) { metal_slope(tables::k_gold, true, in, out); }
-void silver_n_slope(const Interval* in, Interval* out) {
-  metal_slope(tables::k_silver, false, in, out);
-}
-void silver_k_slope(const Interval* in, Interval* out) {
-  metal_slope(tables::k_silver, true, in, out);
-}
-void copper_n_slope(const Interval* in, Interval* out) {
-  metal_slope(tables::k_copper, false, in, out);
-}
-void copper_k_slope(const Interval* in, Interval* out) {
-  metal_slope(tables::k_copper, true, in, out);
-}
-void aluminium_n_slope(const Interval* in, Interval* out) {
-  metal_slope(tables::k_aluminium, false, in, out);
-}
-void aluminium_k_slope(const Interval* in, Interval* out) {
-  metal_slope(tables::k_aluminium, true, in, out);
+/// Slopes of the rows that the argument may find, and the 0 beside them.
+void optical_table_slope(const Interval* in, Interval* out) {
+  const Tables which = tables_of(in[1]);
+  Interval r = Interval::point(0);
+  for (int n = which.first; n <= which.last; ++n) {
+    const materials::OpticalTable& t = materials::optical_tables[n];
+    for_rows(t, in[0].lo * 1e9, in[0].hi * 1e9, [&](int k) {
+      r = join(r, Interval::point((t.value[k + 1] - t.value[k]) / (t.nm[k + 1] - t.nm[k]) * 1e9));
+    });
+  }
+  const double slack = 1e-12 * r.magnitude();
+  out[0] = {r.lo - slack, r.hi + slack, in[0].nan};
 }
 
 }  // namespace mms::stdlib::bounds

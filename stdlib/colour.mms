@@ -6,6 +6,45 @@
 /// 1
 real luminance(real[3] c) = dot(c, [0.2126, 0.7152, 0.0722]);
 
+/// The luminance of a reflectance, as far as the wavelengths of the path tell: its mean, weighted by
+/// the observer's `cie_y` (thesis 4.1, with the density of the wavelengths as a divisor). In [0, 1]
+/// if the reflectance is; exact where it is constant, another number on each path where not.
+/// >>> luminance(0.25 + 0 * $wavelength)
+/// 0.25
+real luminance(spectrum s)
+    // the inverse of the density of the path's wavelengths (thesis 4.8)
+    real spread(real l) = cosh(7.2e6 * (l - 538nm))^2;
+    weight = intrinsic::values(cie_y($wavelength) * spectral(#spread));
+    value  = intrinsic::values(s);
+    mean   = dot(weight, value) / fold(#+, 0, weight);
+    // a mean is between what it is the mean of, however it was rounded
+    return clamp(mean, fold(#min, value[0], value), fold(#max, value[0], value));
+
+/// [red, green, blue], linear, of [X, Y, Z] (IEC 61966-2-1; white is D65).
+/// >>> rgb_of_xyz([0.95, 1, 1.09])
+/// [0.998..., 1.000..., 1.000...]
+real[3] rgb_of_xyz(real[3] c) = multiply([
+    3.2409699419045213, -1.5373831775700935, -0.4986107602930033;
+    -0.9692436362808798, 1.8759675015077206, 0.0415550574071756;
+    0.0556300796969936, -0.2039769588889765, 1.0569715142428786
+], c);
+
+/// [X, Y, Z] of linear [red, green, blue]; that of white has Y = 1.
+/// >>> xyz_of_rgb([1, 1, 1])
+/// [0.950..., 1, 1.089...]
+real[3] xyz_of_rgb(real[3] c) = multiply([
+    0.4123907992659595, 0.357584339383878, 0.1804807884018343;
+    0.2126390058715104, 0.715168678767756, 0.0721923153607337;
+    0.0193308187155918, 0.119194779794626, 0.9505321522496607
+], c);
+
+/// [x, y]: the chromaticity of [X, Y, Z]; that of black is [0, 0].
+/// >>> chromaticity([1, 1, 2])
+/// [0.25, 0.25]
+real[2] chromaticity(real[3] xyz)
+    sum = xyz[0] + xyz[1] + xyz[2];
+    return select [0, 0], if sum == 0.0; [xyz[0] / sum, xyz[1] / sum] otherwise; end;
+
 /// The linear number of a value of sRGB, both in [0, 1] (IEC 61966-2-1).
 /// >>> from_srgb(0.5)
 /// 0.214...

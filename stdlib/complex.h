@@ -201,7 +201,6 @@ MMS_COMPLEX(ComplexAsinh, turned_right(asin_complex(turned_left(z))),
             of_libm(__builtin_casinh(libm(z))))
 MMS_COMPLEX(ComplexAcosh, acosh_complex(z), of_libm(__builtin_cacosh(libm(z))))
 MMS_COMPLEX(ComplexAtanh, atanh_complex(z), of_libm(__builtin_catanh(libm(z))))
-MMS_COMPLEX(Conj, (Complex{z.re, -z.im}), (Complex{z.re, -z.im}))
 #undef MMS_COMPLEX
 
 // MMS_TURNING(Name, angle, float body over a Reduction, double body): the same, where one part is
@@ -275,21 +274,6 @@ struct ComplexAbs {
     const bool infinite = (x == kInf<double>) | (y == kInf<double>);
     return R(infinite ? kInf<double> : root(x * x + y * y));
   }
-};
-template <class R>
-struct Arg {
-  [[gnu::always_inline]] static R eval(R re, R im) {
-    if constexpr (kDouble<R>) return __builtin_atan2(im, re);
-    return R(atan2_core(im, re));
-  }
-};
-template <class R>
-struct Re {
-  [[gnu::always_inline]] static R eval(R re, R) { return re; }
-};
-template <class R>
-struct Im {
-  [[gnu::always_inline]] static R eval(R, R im) { return im; }
 };
 template <class R>
 struct Polar {

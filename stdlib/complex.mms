@@ -1,6 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // Complex numbers, as far as the language itself can say them.
 
+/// Real part: `z.re`.
+/// >>> re(1 + 2i)
+/// 1
+real re(complex z) = z.re;
+
+/// Imaginary part: `z.im`.
+/// >>> im(1 + 2i)
+/// 2
+real im(complex z) = z.im;
+
+/// The number with its imaginary part negated.
+/// >>> conj(0.5 + 0.25i)
+/// 0.5 - 0.25i
+complex conj(complex z) = complex(z.re, -z.im);
+
+/// Angle in [-pi, pi], with the sign of a zero imaginary part.
+/// >>> arg(1 + 1i) / 1deg
+/// 45
+real arg(complex z) = atan2(z.im, z.re);
+
 /// a / b, which the operator `/` calls: Smith's division, so that nothing overflows on the way that
 /// does not in the end.
 /// >>> complex_divide(1 + 2i, 3 + 4i)

@@ -4,10 +4,11 @@
 
 /// \file
 /// Spectra and Fresnel's equations for scripts: functions of reals, which the machine applies at
-/// each wavelength of a spectrum. Formulas and tables are those of materials/{fresnel,spectra}.h;
+/// each wavelength of a spectrum. Formulas are those of materials/{fresnel,spectra}.h;
 /// they are written again here because those call libm and branch (tests compare the two). Both
 /// bodies compute in double. Wavelengths in metres.
 
+#include "materials/optical_tables.h"
 #include "stdlib/core.h"
 
 namespace mms::stdlib::MMS_ISA {
@@ -85,102 +86,24 @@ struct Cauchy {
   }
 };
 
-inline constexpr double kD65[] = {
-#include "materials/illuminant_d65.inc"
-};
-inline constexpr double kIlluminantA[] = {
-#include "materials/illuminant_a.inc"
-};
-static_assert(sizeof kD65 == 107 * sizeof(double) && sizeof kIlluminantA == sizeof kD65);
-
-/// A table over 300-830 nm, 5 nm apart, 100 at 560 nm, as 1 at 560 nm; its ends are held.
-MMS_INLINE double relative_power(const double* table, double wavelength) {
-  const double t0 = (wavelength * 1e9 - 300) * 0.2;
-  const double t = t0 > 0 ? (t0 < 106 ? t0 : 106.0) : 0.0;
-  const auto i0 = std::int32_t(t);
-  const std::int32_t i = i0 < 105 ? i0 : 105;
-  const double u = t - i;
-  return (table[i] * (1 - u) + table[i + 1] * u) * 0.01;
-}
-/// Its slope, per metre; 0 where the ends are held.
-MMS_INLINE double relative_power_slope(const double* table, double wavelength) {
-  const double t = (wavelength * 1e9 - 300) * 0.2;
-  const bool inside = (t >= 0) & (t < 106);
-  const auto i = std::int32_t(inside ? t : 0.0);
-  return inside ? (table[i + 1] - table[i]) * 0.01 * 0.2e9 : t != t ? t : 0.0;
+/// The number of a table: a whole one, held at the ends.
+MMS_INLINE std::int32_t table_number(double x) {
+  constexpr double last = materials::kOpticalTables - 1;
+  return std::int32_t(x > 0 ? (x < last ? x : last) : 0.0);
 }
 template <class R>
-struct IlluminantD65Slope {
-  [[gnu::always_inline]] static R eval(R wavelength) {
-    return R(relative_power_slope(kD65, wavelength));
+struct OpticalTable {
+  [[gnu::always_inline]] static R eval(R wavelength, R table) {
+    return R(materials::optical_tables[table_number(table)].at(double(wavelength) * 1e9));
   }
 };
 template <class R>
-struct IlluminantASlope {
-  [[gnu::always_inline]] static R eval(R wavelength) {
-    return R(relative_power_slope(kIlluminantA, wavelength));
+struct OpticalTableSlope {
+  [[gnu::always_inline]] static R eval(R wavelength, R table) {
+    const double nm = double(wavelength) * 1e9;
+    const double slope = materials::optical_tables[table_number(table)].slope(nm);
+    return R(nm != nm ? nm : slope * 1e9);
   }
 };
-template <class R>
-struct IlluminantD65 {
-  [[gnu::always_inline]] static R eval(R wavelength) { return R(relative_power(kD65, wavelength)); }
-};
-template <class R>
-struct IlluminantA {
-  [[gnu::always_inline]] static R eval(R wavelength) {
-    return R(relative_power(kIlluminantA, wavelength));
-  }
-};
-
-struct MetalRow {
-  double lambda_nm, n, k;
-};
-#define MATERIAL(name, ...) inline constexpr MetalRow k_##name[] = {__VA_ARGS__};
-#include "materials/conductors.inc"
-#undef MATERIAL
-
-/// The metals' tables are evenly spaced in photon energy (4.15 eV downwards, 0.05 eV apart), so
-/// the row is found without a search; between rows they are linear in wavelength.
-template <std::size_t N>
-MMS_INLINE double metal_index(const MetalRow (&table)[N], double wavelength, bool imaginary) {
-  constexpr std::int32_t last = std::int32_t(N) - 2;
-  const double nm = wavelength * 1e9;
-  const double t = (4.15 - 1239.8417 / nm) * 20;
-  const auto i0 = std::int32_t(t > 0 ? (t < last ? t : double(last)) : 0.0);
-  const MetalRow &a = table[i0], &b = table[i0 + 1];
-  const double u0 = (nm - a.lambda_nm) / (b.lambda_nm - a.lambda_nm);
-  const double u = u0 > 0 ? (u0 < 1 ? u0 : 1.0) : 0.0;
-  return imaginary ? a.k + u * (b.k - a.k) : a.n + u * (b.n - a.n);
-}
-/// Its slope, per metre; 0 where the ends are held.
-template <std::size_t N>
-MMS_INLINE double metal_slope(const MetalRow (&table)[N], double wavelength, bool imaginary) {
-  constexpr std::int32_t last = std::int32_t(N) - 2;
-  const double nm = wavelength * 1e9;
-  const double t = (4.15 - 1239.8417 / nm) * 20;
-  const auto i = std::int32_t(t > 0 ? (t < last ? t : double(last)) : 0.0);
-  const MetalRow &a = table[i], &b = table[i + 1];
-  const double rise = imaginary ? b.k - a.k : b.n - a.n;
-  const bool inside = (nm >= a.lambda_nm) & (nm < b.lambda_nm);
-  return inside ? rise / (b.lambda_nm - a.lambda_nm) * 1e9 : nm != nm ? nm : 0.0;
-}
-#define MMS_METAL_PART(Name, function, table, imaginary) \
-  template <class R>                                     \
-  struct Name {                                          \
-    [[gnu::always_inline]] static R eval(R wavelength) { \
-      return R(function(table, wavelength, imaginary));  \
-    }                                                    \
-  };
-#define MMS_METAL(Name, table)                            \
-  MMS_METAL_PART(Name##N, metal_index, table, false)      \
-  MMS_METAL_PART(Name##K, metal_index, table, true)       \
-  MMS_METAL_PART(Name##NSlope, metal_slope, table, false) \
-  MMS_METAL_PART(Name##KSlope, metal_slope, table, true)
-MMS_METAL(Silver, k_silver)
-MMS_METAL(Gold, k_gold)
-MMS_METAL(Copper, k_copper)
-MMS_METAL(Aluminium, k_aluminium)
-#undef MMS_METAL
-#undef MMS_METAL_PART
 
 }  // namespace mms::stdlib::MMS_ISA

@@ -36,6 +36,15 @@ real[3] cross(real[3] a, b) = [
     a[0] * b[1] - a[1] * b[0]
 ];
 
+/// `cross` of complex vectors.
+/// >>> cross([1i, 0, 0], [0, 1, 0])
+/// [0, 0, 1i]
+complex[3] cross(complex[3] a, b) = [
+    a[1] * b[2] - a[2] * b[1],
+    a[2] * b[0] - a[0] * b[2],
+    a[0] * b[1] - a[1] * b[0]
+];
+
 /// `v` mirrored at the plane of unit normal `normal`.
 /// >>> reflect([1, -1], [0, 1])
 /// [1, 1]

@@ -2,6 +2,7 @@
 #include "tools/document.h"
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -66,15 +67,32 @@ std::string_view enclosed(const vm::Builtin& row) {
   return "";
 }
 
-std::string entry(const vm::Builtin& row) {
-  std::string text =
-      fmt::format("`{}`\n\n{}{}{}\n", row.signature, row.doc, accuracy(row), enclosed(row));
+/// The picture of a noise or a pattern: examples/figures/library.mms has a surface of its name.
+/// Later functions of the same name have none.
+class Pictures {
+ public:
+  std::string of(std::string_view header) {
+    const std::string_view call = header.substr(0, header.find('('));
+    const std::string name(call.substr(call.rfind(' ') + 1));
+    constexpr std::string_view kPictured = MMS_PICTURED;
+    if (kPictured.find(" " + name + " ") == kPictured.npos || !shown_.insert(name).second)
+      return "";
+    return fmt::format("![{0}](images/library/{0}.png)\n\n", name);
+  }
+
+ private:
+  std::set<std::string> shown_;
+};
+
+std::string entry(const vm::Builtin& row, Pictures& pictures) {
+  std::string text = fmt::format("`{}`\n\n{}{}{}{}\n", row.signature, pictures.of(row.signature),
+                                 row.doc, accuracy(row), enclosed(row));
   if (!row.example.empty()) text += fmt::format("\n```\n{}\n```\n", row.example);
   return text + "\n";
 }
 
 /// The functions of a module that is written in the language, from its doc comments.
-std::string module_entries(const lang::Library::Module& module) {
+std::string module_entries(const lang::Library::Module& module, Pictures& pictures) {
   lang::Diagnostics diagnostics;
   const lang::SourcePtr source =
       lang::make_source(std::string(module.name) + ".mms", std::string(module.text));
@@ -83,9 +101,8 @@ std::string module_entries(const lang::Library::Module& module) {
   for (const lang::FunctionHandle handle : graph.top_functions) {
     const lang::Function& f = graph[handle];
     if (f.doc.empty()) continue;
-    text += fmt::format("`{}`\n\n{}\n",
-                        source->text.substr(f.header.begin, f.header.end - f.header.begin),
-                        doc_markdown(f.doc));
+    const std::string header = source->text.substr(f.header.begin, f.header.end - f.header.begin);
+    text += fmt::format("`{}`\n\n{}{}\n", header, pictures.of(header), doc_markdown(f.doc));
   }
   return text;
 }
@@ -97,14 +114,19 @@ std::span<const Document> documents() { return kDocuments; }
 std::string stdlib_document() {
   std::map<std::string, std::string> modules;  // sorted by name
   const lang::Library& library = api::standard_library();
+  Pictures pictures;
   for (const vm::Builtin& row : library.builtins)
-    modules[std::string(row.lobe >= 0 ? "materials" : row.module)] += entry(row);
+    modules[std::string(row.lobe >= 0 ? "materials" : row.module)] += entry(row, pictures);
   for (const lang::Library::Module& m : library.modules)
-    if (const std::string text = module_entries(m); !text.empty())
+    if (const std::string text = module_entries(m, pictures); !text.empty())
       modules[std::string(m.name)] += text;
   std::string text = fmt::format(
       "# The library\n\n{}\nEvery function can be called by its bare name; "
-      "`import \"MODULE\" as m;` makes `m::NAME` of those of one module.\n",
+      "`import \"MODULE\" as m;` makes `m::NAME` of those of one module. Noises and patterns have "
+      "a "
+      "picture, 5 units wide (`examples/figures/library.mms`); [the gallery](gallery.md) shows "
+      "what "
+      "can be made of them.\n",
       kMade);
   for (const auto& [name, entries] : modules) text += fmt::format("\n## {}\n\n{}", name, entries);
   text.pop_back();

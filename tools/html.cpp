@@ -86,7 +86,20 @@ std::size_t link(std::string_view text, std::string& out) {
   return end + 1;
 }
 
-/// Code, bold and links of a line.
+/// `![text](address)` at the start of `text`, a picture in a folder beside the page, and how long
+/// it is; 0 where it is none.
+std::size_t picture(std::string_view text, std::string& out) {
+  const std::size_t middle = text.find("](");
+  const std::size_t end = middle == text.npos ? text.npos : text.find(')', middle);
+  if (!text.starts_with("![") || end == text.npos) return 0;
+  const std::string_view address = text.substr(middle + 2, end - middle - 2);
+  if (address.find(':') != address.npos || address.starts_with('/')) return 0;
+  out += fmt::format("<img src=\"{}\" alt=\"{}\" loading=\"lazy\">", escaped(address),
+                     escaped(text.substr(2, middle - 2)));
+  return end + 1;
+}
+
+/// Code, bold, pictures and links of a line.
 std::string inlines(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
@@ -99,6 +112,10 @@ std::string inlines(std::string_view text) {
       out += code ? fmt::format("<code>{}</code>", escaped(inside))
                   : fmt::format("<strong>{}</strong>", inlines(inside));
       i += end + mark;
+      continue;
+    }
+    if (const std::size_t length = picture(rest, out)) {
+      i += length;
       continue;
     }
     if (rest[0] == '[')

@@ -122,6 +122,16 @@ void add_render_options(Verb& verb, RenderRequest& r) {
   verb.add({"--seed", &r.seed, "N", "Same seed, same picture, bit for bit [0]"});
   verb.add({"--threads", &r.threads, "N", "Threads; 0 is all of the machine [0]"});
   verb.add({"--report", &r.report, "", "Print the counters of the render too"});
+  verb.add({"--estimator",
+            &r.estimator,
+            "NAME",
+            "For comparison: clustered, unweighted or single [clustered]",
+            {"clustered", "unweighted", "single"}});
+  verb.add({"--sampler",
+            &r.sampler,
+            "NAME",
+            "For comparison: niederreiter, sobol, random or unscrambled [niederreiter]",
+            {"niederreiter", "sobol", "random", "unscrambled"}});
   verb.add({"--checkpoint", &r.checkpoint, "SECONDS",
             "Keep what is there in PATH.film so often; 0 is never [60]"});
   verb.add({"--sweep", &r.sweep, "PARAM=A:B:N",

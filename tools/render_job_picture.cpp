@@ -133,6 +133,8 @@ renderer::RenderOptions render_options(const RenderRequest& request) {
   options.seconds = request.seconds;
   options.error = request.error_limit;
   options.filter = *renderer::filter_named(request.filter);
+  options.estimator = *renderer::estimator_named(request.estimator);
+  options.generator = *renderer::generator_named(request.sampler);
   options.threads = request.thread_count;
   options.seed = request.seed_number;
   options.max_depth = request.depth;

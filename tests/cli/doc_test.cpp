@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // mms doc: manuals of scripts, and pages as HTML.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -25,7 +29,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 /// What is wrong with the nesting of the elements of a page, or empty.
 std::string nesting_fault(const std::string& html) {
-  static const std::set<std::string> empty{"meta", "input", "!DOCTYPE"};
+  static const std::set<std::string> empty{"meta", "img", "input", "!DOCTYPE"};
   std::vector<std::string> open;
   for (std::size_t at = html.find('<'); at != html.npos; at = html.find('<', at + 1)) {
     if (!open.empty() && (open.back() == "style" || open.back() == "script") &&
@@ -88,14 +92,17 @@ TEST_CASE("HTML of a script is escaped") {
   CHECK_FALSE(contains(wild, "href=\"javascript"));
 }
 
-TEST_CASE("every page is one HTML file that needs nothing else, and its index leads somewhere") {
+TEST_CASE(
+    "every page is one HTML file that needs nothing else but thumbnails, and its index leads "
+    "somewhere") {
   const Folder folder;
   for (const char* page : {"stdlib", "inputs", "errors", "bytecode", "cli", "info", "passes"}) {
     const std::string html = folder.mms(std::string("doc --html ") + page).out;
     INFO(page);
     CHECK(html.starts_with("<!DOCTYPE html>"));
     CHECK(nesting_fault(html) == "");
-    CHECK(attributes(html, "src").empty());
+    for (const std::string& source : attributes(html, "src"))
+      CHECK(source.starts_with("images/library/"));
     CHECK_FALSE(contains(html, "<link"));
     CHECK_FALSE(contains(html, "@import"));
     CHECK_FALSE(contains(html, ":url("));
@@ -108,6 +115,58 @@ TEST_CASE("every page is one HTML file that needs nothing else, and its index le
   CHECK(contains(html, "<input type=\"search\""));
   CHECK(contains(html, "<h3><code>material matte(spectrum colour = 1)</code></h3>"));
   CHECK(attributes(html, "id").size() > 100);
+}
+
+TEST_CASE("every noise and pattern of the library has its picture") {
+  namespace fs = std::filesystem;
+  const fs::path root = MMS_SOURCE_DIR;
+  const auto text_of = [&](const char* path) {
+    std::ifstream in(root / path);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const std::string script = text_of("examples/figures/library.mms");
+  const std::string page = text_of("docs/stdlib.md");
+  std::size_t count = 0;
+  std::uintmax_t bytes = 0;
+  for (std::size_t at = 0; (at = script.find("\nsurface ", at)) != script.npos; ++at, ++count) {
+    const std::size_t begin = at + 9, end = script.find_first_of(" \n", begin);
+    const std::string name = script.substr(begin, end - begin);
+    INFO(name);
+    const std::string picture = "images/library/" + name + ".png";
+    CHECK(fs::exists(root / "docs" / picture));
+    if (fs::exists(root / "docs" / picture)) bytes += fs::file_size(root / "docs" / picture);
+    CHECK(contains(page, "![" + name + "](" + picture + ")"));
+  }
+  CHECK(count >= 41);
+  CHECK(bytes < 1'000'000);
+  // What is no picture of its own: how others are filtered, moved, laid out.
+  const std::set<std::string> helpers = {"fade", "widest", "coverage", "turn"};
+  for (const char* module : {"noise", "patterns"}) {
+    std::istringstream source(text_of((std::string("stdlib/") + module + ".mms").c_str()));
+    for (std::string line; std::getline(source, line);) {
+      const std::size_t call = line.find('(');
+      if (!line.starts_with("real") || call == line.npos) continue;
+      const std::size_t space = line.rfind(' ', call);
+      const std::string name = line.substr(space + 1, call - space - 1);
+      INFO(module, ": ", name);
+      CHECK((helpers.contains(name) || contains(script, "\nsurface " + name)));
+    }
+  }
+}
+
+TEST_CASE("the scripts of the gallery are laid out and link, and their pictures are there") {
+  namespace fs = std::filesystem;
+  const fs::path root = MMS_SOURCE_DIR;
+  const Folder folder;
+  for (const char* name : {"library", "noise", "fractals", "screen"}) {
+    const std::string script = (root / "examples/figures" / name).string() + ".mms";
+    INFO(script);
+    CHECK(folder.mms("check " + script).exit == 0);
+    CHECK(folder.mms("fmt --check " + script).exit == 0);
+    CHECK(folder.mms("test " + script).exit == 0);
+  }
+  for (const char* name : {"simple", "octaves", "sine", "exponential", "mandelbrot", "julia"})
+    CHECK(fs::exists(root / "docs/images/figures" / (std::string(name) + ".png")));
 }
 
 TEST_CASE("pages are written and compared as HTML too") {

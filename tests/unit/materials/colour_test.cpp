@@ -5,7 +5,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 
+#include "materials/optical_tables.h"
 #include "materials/spectra.h"
 #include "tests/stats/distributions.h"
 #include "tests/stats/random.h"
@@ -179,26 +181,36 @@ TEST_CASE("samples of a cluster estimate XYZ") {
   CHECK(length(sum - whole) < 1e-3);
 }
 
-TEST_CASE("index tables") {
-  for (const auto tables : {conductors(), glasses()})
-    for (const IndexTable& t : tables)
-      for (std::size_t i = 1; i < t.rows().size(); ++i)
-        CHECK(t.rows()[i].lambda_nm > t.rows()[i - 1].lambda_nm);
-  const IndexTable* gold = find_index(conductors(), "gold");
-  REQUIRE(gold);
-  CHECK(find_index(conductors(), "unobtainium") == nullptr);
-  CHECK(gold->at(100).n == gold->rows().front().n);
-  CHECK(gold->at(5000).k == gold->rows().back().k);
-  const auto& a = gold->rows()[10];
-  const auto& b = gold->rows()[11];
-  CHECK(gold->at((a.lambda_nm + b.lambda_nm) / 2).n == doctest::Approx((a.n + b.n) / 2));
-  // Schott's published n_d of N-BK7-like glass: 1.5168 at 587.56 nm; and its Sellmeier terms.
-  const IndexTable* bk7 = find_index(glasses(), "BK7");
-  REQUIRE(bk7);
-  CHECK(bk7->at(587.56).n == doctest::Approx(1.5168).epsilon(1e-4));
+TEST_CASE("optical tables") {
+  for (const OpticalTable& t : optical_tables) {
+    INFO(t.name);
+    REQUIRE(t.rows >= 2);
+    CHECK(t.nm[0] >= OpticalTable::kFirstNm);
+    CHECK(t.nm[t.rows - 1] < OpticalTable::kFirstNm + OpticalTable::kCells);
+    for (int k = 0; k + 1 < t.rows; ++k) {
+      const double a = t.nm[k], b = t.nm[k + 1], middle = (a + b) / 2;
+      REQUIRE(a < b);
+      CHECK(t.at(a) == t.value[k]);
+      CHECK(t.at(middle) == doctest::Approx((t.value[k] + t.value[k + 1]) / 2));
+      CHECK(t.slope(middle) == doctest::Approx((t.value[k + 1] - t.value[k]) / (b - a)));
+    }
+    const double first = t.value[0], last = t.value[t.rows - 1];
+    CHECK(t.at(100) == first);
+    CHECK(t.at(-1e300) == first);
+    CHECK(t.at(5000) == last);
+    CHECK(t.at(std::numeric_limits<double>::infinity()) == last);
+    CHECK(t.at(std::nan("")) == first);
+    CHECK(t.slope(100) == 0);
+    CHECK(t.slope(5000) == 0);
+  }
+}
+
+TEST_CASE("refractive indices by formula") {
+  // Schott's published indices of N-BK7 at the d, F and C lines.
   const double sb[] = {1.03961212, 0.231792344, 1.01046945};
   const double sc[] = {0.00600069867, 0.0200179144, 103.560653};
-  for (double l : {400.0, 550.0, 700.0})
-    CHECK(sellmeier(l, sb, sc) == doctest::Approx(bk7->at(l).n).epsilon(2e-4));
+  CHECK(sellmeier(587.5618, sb, sc) == doctest::Approx(1.51680).epsilon(5e-6));
+  CHECK(sellmeier(486.1327, sb, sc) == doctest::Approx(1.52238).epsilon(5e-6));
+  CHECK(sellmeier(656.2725, sb, sc) == doctest::Approx(1.51432).epsilon(5e-6));
   CHECK(cauchy(500.0, 1.5, 0.004) == doctest::Approx(1.516));
 }

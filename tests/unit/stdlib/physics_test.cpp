@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "materials/fresnel.h"
+#include "materials/optical_tables.h"
 #include "materials/spectra.h"
 #include "tests/unit/stdlib/rows.h"
 
@@ -96,30 +97,25 @@ TEST_CASE("sellmeier and cauchy against catalogue figures") {
         doctest::Approx(1.516).epsilon(1e-12));
 }
 
-TEST_CASE("illuminants and metals are the tables of materials/") {
-  const vm::Builtin& d65 = find("real illuminant_d65(real wavelength)");
-  const vm::Builtin& a = find("real illuminant_a(real wavelength)");
-  for (double nm = 290; nm <= 900; nm += 0.7) {
-    CHECK(call<double>(d65, nm * 1e-9) ==
-          doctest::Approx(materials::illuminant_d65(nm)).epsilon(1e-9));
-    CHECK(call<double>(a, nm * 1e-9) == doctest::Approx(materials::illuminant_a(nm)).epsilon(1e-9));
-  }
-  CHECK(call<float>(d65, 560e-9f) == doctest::Approx(1).epsilon(1e-6));
-  for (const std::string metal : {"gold", "silver", "copper", "aluminium"}) {
-    const auto* table = materials::find_index(materials::conductors(), metal);
-    REQUIRE(table != nullptr);
-    const vm::Builtin& n = find("real " + metal + "_n(real wavelength)");
-    const vm::Builtin& k = find("real " + metal + "_k(real wavelength)");
-    for (double nm = 290; nm <= 900; nm += 0.7) {
-      // Just inside a row the two may choose neighbouring lines, which meet there.
-      CHECK(call<double>(n, nm * 1e-9) == doctest::Approx(table->at(nm).n).epsilon(1e-6));
-      CHECK(call<double>(k, nm * 1e-9) == doctest::Approx(table->at(nm).k).epsilon(1e-6));
+TEST_CASE("optical_table reads the tables of materials/, by number, ends held") {
+  const vm::Builtin& row = find("real optical_table(real wavelength, table)");
+  const vm::Builtin& slope = find("real optical_table_slope(real wavelength, table)");
+  for (int k = 0; k < materials::kOpticalTables; ++k) {
+    const materials::OpticalTable& table = materials::optical_tables[k];
+    INFO(table.name);
+    for (double nm = 290; nm <= 900; nm += 7.7) {
+      CHECK(call<double>(row, nm * 1e-9, double(k)) == doctest::Approx(table.at(nm)).epsilon(1e-9));
+      CHECK(call<double>(slope, nm * 1e-9, double(k)) * 1e-9 ==
+            doctest::Approx(table.slope(nm)).epsilon(1e-9));
     }
-    for (const auto& r : table->rows()) {
-      CHECK(call<double>(n, r.lambda_nm * 1e-9) == doctest::Approx(r.n).epsilon(1e-4));
-      CHECK(call<float>(k, float(r.lambda_nm * 1e-9)) == doctest::Approx(r.k).epsilon(1e-4));
-    }
+    // A float wavelength is off by 2^-24 of itself.
+    const float l = 555.5e-9f;
+    CHECK(call<float>(row, l, float(k)) ==
+          doctest::Approx(table.at(double(l) * 1e9)).epsilon(1e-6));
   }
+  CHECK(call<double>(row, 555e-9, -1.0) == call<double>(row, 555e-9, 0.0));
+  CHECK(call<double>(row, 555e-9, 1e9) ==
+        call<double>(row, 555e-9, double(materials::kOpticalTables - 1)));
 }
 
 }  // namespace
