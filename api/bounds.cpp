@@ -49,33 +49,33 @@ class Weights {
     using materials::Lobe;
     const vm::LayoutNode& node = layout_.nodes[k];
     switch (Lobe(node.lobe)) {
-      case Lobe::Matte:
-      case Lobe::Translucent:
-      case Lobe::Glossy:
-      case Lobe::Microfacet:
-      case Lobe::Mirror:
-        return most(node, 0);
-      case Lobe::Refraction:
-        return most(node, 1);
-      case Lobe::Dielectric:
-        return std::max(most(node, 2), most(node, 3));
-      case Lobe::Conductor:
-      case Lobe::Isotropic:
-      case Lobe::HenyeyGreenstein:
-        return 1;
       case Lobe::Mix:
       case Lobe::FresnelMix:
+      case Lobe::Coat:
         return std::max(at(node.children[0]), at(node.children[1]));
       case Lobe::Scale:
         return most(node, 0) * at(node.children[0]);
       case Lobe::Add:
         return at(node.children[0]) + at(node.children[1]);
       default:
-        return kInf;
+        return tint(node);
     }
   }
 
  private:
+  /// Models keep to their colours; those without any lose at most all.
+  double tint(const vm::LayoutNode& node) const {
+    const materials::Formals& f = materials::formals(materials::Lobe(node.lobe));
+    double bound = 0;
+    bool any = false;
+    for (int i = 0; i < f.count; ++i) {  // a model takes no materials: arguments are parameters
+      if (!f.tint[i]) continue;
+      bound = std::max(bound, most(node, std::size_t(i)));
+      any = true;
+    }
+    return any ? bound : 1;
+  }
+
   double most(const vm::LayoutNode& node, std::size_t param) const {
     const vm::ValueSource& v = node.params[param];
     const Interval i =

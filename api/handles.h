@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/images.h"
 #include "api/mms.h"
 #include "base/result.h"
 #include "lang/link.h"
@@ -72,6 +73,7 @@ struct LinkedProgram {
 struct MMsProgram {
   std::vector<mms::lang::Graph> graphs;
   mms::lang::LinkOptions options;
+  mms::api::ImageLibrary images;
   MMsResolve resolve = nullptr;
   void* resolve_user = nullptr;
   std::shared_ptr<const mms::api::LinkedProgram>

@@ -73,6 +73,7 @@ bool link(MMsProgram& p, int level) {
   }
   p.options.level = static_cast<lang::Level>(level);
   p.options.resolve = resolver(p);
+  p.options.images = &p.images;
   lang::Diagnostics diagnostics;
   auto linked = lang::link(p.graphs, api::standard_library(), p.options, diagnostics);
   report(p.messages, diagnostics);

@@ -34,6 +34,9 @@ endif()
 
 install(FILES ${PROJECT_SOURCE_DIR}/api/mms.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS mms)
+if(TARGET mms_images)  # what reads images for scripts
+  install(TARGETS mms_images LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/mms)
+endif()
 if(TARGET mms-render)  # which `mms render` starts
   install(TARGETS mms-render)
 endif()

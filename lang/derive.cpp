@@ -265,38 +265,64 @@ Value Elaborator::derive_gradient(const Value& height, Span span) {
   return v;
 }
 
-/// How much each real of `value` changes across the pixel: the length of its change for a step of
-/// one column of `$footprint` and for one of the other. A box as wide has the variance of the
-/// pixel's projection.
-Value Elaborator::across_footprint(const Value& value) {
-  const Deriving outer = deriving_;
-  deriving_ = {user_span_,
-               "where a recursion begins, find the width and hand it on as an argument"};
-  std::vector<Ref> all;
+/// How much each real of `value` changes for a step of one column of `$footprint` and for one of
+/// the other: two values like `value`, which differentiation takes for constant.
+std::vector<Value> Elaborator::footprint_columns(const Value& value) {
+  std::vector<Ref> all, columns[2];
   flatten(value, all);
-  for (Ref& r : all) {
-    std::optional<Ref> along[2], across[2];
+  const int footprint = vm::input_index(vm::Variable::Footprint);
+  for (const Ref r : all) {
+    std::optional<Ref> along[2];
     for (int direction : {kAlongTangent, kAlongBitangent}) {
       Tangents t;
       along[direction] = derive(t, localise(r), 0, direction);
     }
-    const int footprint = vm::input_index(vm::Variable::Footprint);
-    for (int column = 0; column < 2; ++column)
+    for (int column = 0; column < 2; ++column) {
+      std::optional<Ref> across;
       for (int row = 0; row < 2; ++row)
         if (along[row])
-          across[column] = sum(across[column],
-                               node(Op::MulR, {*along[row], input(footprint + 2 * row + column)}));
-    r = across[0] ? call_library("hypot",
-                                 {scalar(TypeTable::kReal, *across[0]),
-                                  scalar(TypeTable::kReal, *across[1])},
-                                 user_span_)
-                        .refs[0]
-                  : real(0);
-    module.functions[function_].nodes[r.node].steady = true;
+          across = sum(across, node(Op::MulR, {*along[row], input(footprint + 2 * row + column)}));
+      columns[column].push_back(across ? *across : real(0));
+      module.functions[function_].nodes[columns[column].back().node].steady = true;
+    }
+  }
+  std::vector<Value> values;
+  for (const std::vector<Ref>& column : columns) {
+    std::size_t next = 0;
+    values.push_back(unflatten(value.type, column, next));
+  }
+  return values;
+}
+
+/// How much each real of `value` changes across the pixel: the length of its changes along both
+/// axes. A box as wide has the variance of the pixel's projection.
+Value Elaborator::across_footprint(const Value& value) {
+  const Deriving outer = deriving_;
+  deriving_ = {user_span_,
+               "where a recursion begins, find the width and hand it on as an argument"};
+  std::vector<Ref> x, y;
+  const std::vector<Value> columns = footprint_columns(value);
+  flatten(columns[0], x);
+  flatten(columns[1], y);
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if (known(x[k]) && known(y[k])) continue;  // it does not move
+    x[k] = call_library("hypot", {scalar(TypeTable::kReal, x[k]), scalar(TypeTable::kReal, y[k])},
+                        user_span_)
+               .refs[0];
+    module.functions[function_].nodes[x[k].node].steady = true;
   }
   deriving_ = outer;
   std::size_t next = 0;
-  return unflatten(value.type, all, next);
+  return unflatten(value.type, x, next);
+}
+
+/// How much each real of `value` changes across the pixel along its x axis (column 0) or y axis.
+Value Elaborator::along_footprint(const Value& value, const Value& column) {
+  const Deriving outer = deriving_;
+  deriving_ = {user_span_, "with `width = 0` a picture is looked up as it is, unfiltered"};
+  std::vector<Value> columns = footprint_columns(value);
+  deriving_ = outer;
+  return columns[known_integer(column).value_or(0) != 0];
 }
 
 }  // namespace mms::lang

@@ -81,11 +81,7 @@ Value Elaborator::call_named(Context c, const Path& path, std::vector<BoundArgum
     return call_intrinsic(path[1].text, args);
   Binding* b = find(c, path);
   if (!b) {
-    // Named in the language's design, not made yet: said so rather than called unknown.
-    if (path[0].text == "image")
-      diagnostics_.add(Diag::NotYet, span, path[0].text);
-    else
-      unknown_name(c, path, Diag::UnknownFunction);
+    unknown_name(c, path, Diag::UnknownFunction);
     return {};
   }
   if (b->form == Binding::Form::Type) return construct(type_of(*b), args, span);

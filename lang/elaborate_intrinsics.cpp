@@ -49,6 +49,9 @@ Value Elaborator::call_intrinsic(std::string_view name, const std::vector<BoundA
   if (name == "gradient") return gradient_of(args[0].value, args[1].value);
   if (name == "across_footprint") return across_footprint(args[0].value);
   if (name == "values") return values_of(args[0].value);
+  if (name == "along_footprint") return along_footprint(args[0].value, args[1].value);
+  if (name == "image") return image_handle(args);
+  if (name == "image_fact") return image_fact(args);
   return at_each_wavelength(args[0].value, args[1].value);
 }
 
@@ -221,8 +224,9 @@ std::optional<Ref> Elaborator::widened(std::uint32_t first, Ref x, Ref s, Ref ro
       r = node(*op, std::move(args));
     } else if (n.op == Op::SelectR && !wide.count(n.args[0])) {
       r = node(Op::SelectS, {n.args[0], spectrum(n.args[1]), spectrum(n.args[2])});
-    } else if (n.op == Op::CallBuiltin && all_real(module.builtin_params[n.a]) &&
-               all_real(n.results) && n.results.size() == 1 && n.args.size() <= 32) {
+    } else if (n.op == Op::CallBuiltin && !module.builtins[n.a]->image32 &&
+               all_real(module.builtin_params[n.a]) && all_real(n.results) &&
+               n.results.size() == 1 && n.args.size() <= 32) {
       std::uint32_t mask = 0;
       for (std::size_t k = 0; k < n.args.size(); ++k) {
         const bool varies = wide.count(n.args[k]) > 0;

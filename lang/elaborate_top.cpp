@@ -391,6 +391,7 @@ void Elaborator::run(std::span<const Graph> graphs) {
   };
   for (std::size_t i = 0; i < count; ++i) check(decls_[i], false);
   for (std::size_t i = count; i-- > 0;) check(decls_[i], true);
+  report_images();
 }
 
 }  // namespace mms::lang

@@ -61,7 +61,8 @@ Ref Elaborator::node(Op op, std::vector<Ref> args, std::uint32_t a, std::uint32_
   }
   if (values.size() == args.size() && !args.empty()) {
     if (op == Op::CallBuiltin) {
-      if (results.size() == 1) folded = fold_builtin(*module.builtins[a], results[0], values);
+      if (results.size() == 1 && !module.builtins[a]->image32)
+        folded = fold_builtin(*module.builtins[a], results[0], values);
     } else if (op != Op::Call && op != Op::If && op != Op::CallSpectral) {
       folded = fold(op, values);
     }

@@ -10,7 +10,8 @@
 /// The class is one; its members are implemented by theme: elaborate_names.cpp (scopes, types),
 /// elaborate_values.cpp (nodes, conversions, operators), elaborate_expr.cpp (expressions),
 /// elaborate_call.cpp (overloads), elaborate_recursion.cpp (inlining), elaborate_top.cpp (items,
-/// descriptors), library.cpp (names of the library), derive.cpp and derive_rules.cpp (derivatives).
+/// descriptors), library.cpp (names of the library), derive.cpp and derive_rules.cpp (derivatives),
+/// elaborate_images.cpp (images).
 
 #include <climits>
 #include <deque>
@@ -263,6 +264,20 @@ class Elaborator {
   std::vector<Ref> substitute(std::uint32_t first, const std::vector<Ref>& from,
                               const std::vector<Ref>& to, std::vector<Ref> roots);
 
+  // --- images (elaborate_images.cpp) ---
+  struct MissingImage {
+    std::string folder;  ///< of the script
+    vm::ImageUse use;    ///< as written
+    Error error;
+    std::vector<Span> places;  ///< that name it
+  };
+  bool check_words(const vm::ImageUse& use);
+  Result<std::shared_ptr<const vm::Image>> open_image(vm::ImageUse& use);
+  std::optional<std::uint32_t> image_number(vm::ImageUse use);
+  Value image_handle(const std::vector<BoundArgument>& args);
+  Value image_fact(const std::vector<BoundArgument>& args);
+  void report_images();
+
   // --- the differentiation pass (derive.cpp) ---
   using Tangents = std::map<Ref, Ref>;  ///< derivative of a real value; not there: zero
   /// How a node that reads the hit changes: along `$tangent`, along `$bitangent`, or not at all.
@@ -279,7 +294,9 @@ class Elaborator {
   std::uint16_t derive_function(std::uint16_t function, int direction);
   Ref sum(std::optional<Ref> a, std::optional<Ref> b);
   Value derive_gradient(const Value& height, Span span);
+  std::vector<Value> footprint_columns(const Value& value);
   Value across_footprint(const Value& value);
+  Value along_footprint(const Value& value, const Value& column);
 
   // --- types without values (elaborate_peek.cpp): kPoison where the text alone does not say ---
   TypeId peek(Context c, ExprHandle h);
@@ -367,6 +384,9 @@ class Elaborator {
   std::map<std::string, Instance> instances_;
   std::map<std::uint16_t, Instance*> instance_of_;
   std::map<const Source*, std::uint32_t> source_index_;
+  /// Images of the program by the folder of the script and what it writes.
+  std::map<std::pair<std::string, std::string>, std::vector<std::uint32_t>> image_numbers_;
+  std::vector<MissingImage> missing_images_;
   std::map<std::pair<std::uint16_t, int>, std::uint16_t> derived_;  ///< by function and direction
   Deriving deriving_;
   std::map<Ref, Ref>

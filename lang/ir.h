@@ -59,6 +59,7 @@ struct Module {
   std::vector<vm::Constant> constants;
   std::vector<const vm::Builtin*> builtins;
   std::vector<std::vector<vm::SlotType>> builtin_params, builtin_results;
+  std::vector<vm::ProgramImage> images;
 
   std::uint32_t constant(const vm::Constant& c);
   std::uint32_t builtin(const vm::Builtin* row, const std::vector<vm::SlotType>& params,

@@ -129,6 +129,7 @@ class ProgramBuilder {
       const std::vector<Ref>& results = e_.module.functions[x.function].results;
       program_.exports.push_back({x.name, x.type, emitter_.emit(x.function, results, x.name)});
     }
+    program_.images = e_.module.images;
     program_.sources = e_.sources;
     program_.constants = e_.module.constants;
     program_.builtins = e_.module.builtins;

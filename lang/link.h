@@ -14,6 +14,7 @@
 
 #include "lang/ast.h"
 #include "lang/diagnostics.h"
+#include "vm/images.h"
 #include "vm/program.h"
 
 namespace mms::lang {
@@ -53,6 +54,9 @@ struct Imported {
 using Resolver =
     std::function<std::optional<Imported>(const std::string& importer, const std::string& written)>;
 
+/// What becomes of an image that cannot be read: an error, or a warning and magenta in its place.
+enum class MissingImages : std::uint8_t { Refuse, Magenta };
+
 struct LinkOptions {
   Level level = Level::O2;
   std::string dump_after;  ///< `Linked::dump`: a name of passes()
@@ -60,6 +64,8 @@ struct LinkOptions {
   std::vector<std::string> import_path;                     ///< `-I`, in order
   std::vector<std::pair<std::string, std::string>> params;  ///< `--set name=expression`
   UnknownParams unknown_params = UnknownParams::Refuse;
+  vm::ImageSource* images = nullptr;  ///< opens images; null: there are none
+  MissingImages missing_images = MissingImages::Refuse;
   StageDone stage_done;  ///< may be empty
 };
 
@@ -76,7 +82,7 @@ using vm::ParamInfo;
 struct Linked {
   vm::Program program;
   std::vector<ParamInfo> params;
-  std::vector<std::string> dependencies;  ///< imported files
+  std::vector<std::string> dependencies;  ///< imported files, and those of images
   std::string dump;  ///< every function after the pass `dump_after`; empty where no pass that
                      ///< runs at the level has that name
   std::vector<std::string> unknown_params;  ///< of LinkOptions::params, where they are reported

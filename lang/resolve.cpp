@@ -97,7 +97,7 @@ void NameCheck::expr(ExprHandle h) {
       const Expr& callee = graph_[e.args[0]];
       if (callee.form == Expr::Form::Name && !callee.parenthesised) {
         first = 1;
-        if (callee.path[0].text != "image") name(callee.path, Diag::UnknownFunction);
+        name(callee.path, Diag::UnknownFunction);
       }
       break;
     }

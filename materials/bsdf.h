@@ -30,14 +30,18 @@
 #include <optional>
 #include <type_traits>
 
+#include "materials/baselines.h"
 #include "materials/combine.h"
 #include "materials/conductor.h"
 #include "materials/dielectric.h"
+#include "materials/film.h"
 #include "materials/glossy.h"
 #include "materials/layout.h"
 #include "materials/lobe.h"
 #include "materials/matte.h"
 #include "materials/microfacet.h"
+#include "materials/oren_nayar.h"
+#include "materials/radial.h"
 #include "materials/specular.h"
 
 namespace mms::materials {
@@ -134,20 +138,51 @@ Result Bsdf<R>::with_model(int i, Result none, Visit visit) const {
       return visit(Translucent<R>(p));
     case Lobe::Glossy:
       return visit(Glossy<R>(p));
+    case Lobe::GlossyProduct:
+      return visit(GlossyProduct<R>(p));
+    case Lobe::GlossyBack:
+      return visit(GlossyBack<R>(p));
+    case Lobe::GlossyThrough:
+      return visit(GlossyThrough<R>(p));
+    case Lobe::OrenNayar:
+      return visit(OrenNayar<R>(p));
+    case Lobe::RoughMatte:
+      return visit(RoughMatte<R>(p));
+    case Lobe::Phong:
+      return visit(Phong<R>(p));
+    case Lobe::MaxPhong:
+      return visit(MaxPhong<R>(p));
+    case Lobe::Spot:
+      return visit(Spot<R>(p));
+    case Lobe::Ward:
+      return visit(Ward<R>(p));
+    case Lobe::AshikhminShirley:
+      return visit(AshikhminShirley<R>(p));
+    case Lobe::Sheen:
+      return visit(Sheen<R>(p));
     case Lobe::Microfacet:
       return visit(Microfacet<R>(p));
+    case Lobe::Beckmann:
+      return visit(BeckmannMirror<R>(p));
     case Lobe::Conductor:
       return visit(Conductor<R>(p));
     case Lobe::Dielectric:
       return visit(Dielectric<R>(p));
+    case Lobe::FilmConductor:
+      return visit(FilmConductor<R>(p));
+    case Lobe::FilmDielectric:
+      return visit(FilmDielectric<R>(p));
     case Lobe::Mirror:
       return visit(Mirror<R>(p));
     case Lobe::Refraction:
       return visit(Refraction<R>(p));
     case Lobe::Isotropic:
     case Lobe::HenyeyGreenstein:
+    case Lobe::RayleighPhase:
+    case Lobe::Draine:
     case Lobe::Mix:
     case Lobe::FresnelMix:
+    case Lobe::Coat:
     case Lobe::Scale:
     case Lobe::Add:
       break;

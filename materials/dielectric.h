@@ -4,7 +4,8 @@
 /// \file
 /// `dielectric`: an interface that reflects by Fresnel and refracts the rest, ideal at roughness 0,
 /// else GGX facets (Walter et al. 2007). Each wavelength has its own index, so a rough direction is
-/// looked up with a different half vector for each: that is what the hypothetical pdfs hold.
+/// looked up with a different half vector for each: that is what the hypothetical pdfs hold. What
+/// facets send on to other facets is given back on both sides (materials/energy.h).
 
 #include "materials/fresnel.h"
 #include "materials/microfacet.h"
@@ -19,7 +20,7 @@ struct Dielectric {
 
   explicit Dielectric(const R* p)
       : ior(p),
-        ggx(Ggx<R>::from(p[kWavelengths], R(0))),
+        ggx{Alpha<R>::from(p[kWavelengths], R(0))},
         reflected(weight_at(p + kWavelengths + 1)),
         transmitted(weight_at(p + 2 * kWavelengths + 1)) {}
 
@@ -64,11 +65,33 @@ struct Dielectric {
   }
 
   Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode) const {
-    return same_side(wo, wi) ? evaluate_reflection(wo, wi) : evaluate_transmission(wo, wi, mode);
+    const bool reflects = same_side(wo, wi);
+    Lobes<R> out = reflects ? evaluate_reflection(wo, wi) : evaluate_transmission(wo, wi, mode);
+    Bounces b;
+    for (int j = 0; j < kWavelengths; ++j) {
+      if (!repeated(j)) b = bounces(j, wo, wi);
+      const R f = reflects ? b.reflect * reflected[j] : b.transmit * transmitted[j];
+      const R scale = reflects || mode == Mode::Importance ? R(1) : 1 / (b.eta * b.eta);
+      out.f[j] += b.lost * f * b.shape * scale;
+      const Choice c = choose(j, {b.reflect, b.transmit});
+      out.pdf[j] = (1 - b.lost) * out.pdf[j] + b.lost * (reflects ? c.reflect : c.transmit) * b.pdf;
+    }
+    return out;
   }
 
   bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, Vec3<R>& wi) const {
     const Vec3<R> up = to_upper(wo, wo);
+    const Bounces b = bounces(0, wo, wo);
+    if (u_lobe < b.lost) {
+      const Choice c = choose(0, {b.reflect, b.transmit});
+      if (!(c.reflect + c.transmit > 0)) return false;
+      wi = BounceSampling<R>{ggx.ax * ggx.ax}.sample(u1, u2);
+      if (!(wi.z > 0)) return false;
+      const bool down = u_lobe >= c.reflect * b.lost;
+      wi.z = down == (wo.z > 0) ? -wi.z : wi.z;
+      return true;
+    }
+    u_lobe = (u_lobe - b.lost) / (1 - b.lost);
     const Vec3<R> h = ggx.sample_visible(up, u1, u2);
     const R c = dot(up, h);
     if (!(c > 0)) return false;
@@ -103,6 +126,35 @@ struct Dielectric {
     return wo.z > 0 ? bent : 1 / bent;
   }
 
+  /// All bounces but the first, at one wavelength.
+  struct Bounces {
+    R lost = 0;                   ///< by the first, of what comes along wo
+    R reflect = 0, transmit = 0;  ///< shares of it; their sum is 1
+    R shape = 0;                  ///< f of a share; of the side of wi
+    R pdf = 0;                    ///< of a share
+    R eta = 1;
+  };
+
+  Bounces bounces(int j, Vec3<R> wo, Vec3<R> wi) const {
+    Bounces b;
+    b.eta = rough_eta(j, wo);
+    const InterfaceLoss<R> here{ggx.ax, b.eta}, there{ggx.ax, 1 / b.eta};
+    const bool reflects = same_side(wo, wi);
+    const R mean_here = here.mean(), mean_there = there.mean();
+    b.lost = here.at(wo);
+    b.transmit = transmitted_share(mean_here, mean_there, b.eta);
+    b.reflect = 1 - b.transmit;
+    b.shape = (reflects ? here : there).at(wi) / (kPi<R> * (reflects ? mean_here : mean_there));
+    b.pdf = BounceSampling<R>{ggx.ax * ggx.ax}.pdf(std::abs(wi.z));
+    return b;
+  }
+
+  /// All is as at the wavelength before.
+  bool repeated(int j) const {
+    return j > 0 && ior[j] == ior[j - 1] && reflected[j] == reflected[j - 1] &&
+           transmitted[j] == transmitted[j - 1];
+  }
+
   /// Probabilities of the two directions at a facet.
   Choice choose(int j, FresnelSplit<R> s) const {
     const R r = s.reflected * reflected[j], t = s.transmitted * transmitted[j];
@@ -112,13 +164,16 @@ struct Dielectric {
   }
 
   Lobes<R> evaluate_reflection(Vec3<R> wo, Vec3<R> wi) const {
-    const FacetReflection<R> r = reflect_by_facets(ggx, wo, wi);
     Lobes<R> out;
-    if (!(r.pdf > 0)) return out;
+    const Vec3<R> o = to_upper(wo, wo), i = to_upper(wi, wo);
+    const Vec3<R> h = half_vector(o, i);
+    if (!(h.z > 0)) return out;
+    const R f = ggx.density(h) * materials::masking(ggx, o, i), pdf = visible(ggx, o, h) / 4;
+    const R cos_h = limited(dot(o, h), R(0), R(1));
     for (int j = 0; j < kWavelengths; ++j) {
-      const FresnelSplit<R> s = fresnel_split(r.cos_h, rough_eta(j, wo));
-      out.f[j] = s.reflected * reflected[j] * r.f;
-      out.pdf[j] = choose(j, s).reflect * r.pdf;
+      const FresnelSplit<R> s = fresnel_split(cos_h, rough_eta(j, wo));
+      out.f[j] = s.reflected * reflected[j] * f;
+      out.pdf[j] = choose(j, s).reflect * pdf;
     }
     return out;
   }
@@ -126,11 +181,10 @@ struct Dielectric {
   Lobes<R> evaluate_transmission(Vec3<R> wo, Vec3<R> wi, Mode mode) const {
     Lobes<R> out;
     const Vec3<R> o = to_upper(wo, wo), i = to_upper(wi, wo);
-    const R masking = ggx.masking(o, i);
+    const R masking = materials::masking(ggx, o, i);
     for (int j = 0; j < kWavelengths; ++j) {
       const R eta = rough_eta(j, wo);
-      if (j > 0 && ior[j] == ior[j - 1] && reflected[j] == reflected[j - 1] &&
-          transmitted[j] == transmitted[j - 1]) {
+      if (repeated(j)) {
         out.f[j] = out.f[j - 1];
         out.pdf[j] = out.pdf[j - 1];
         continue;
@@ -149,7 +203,7 @@ struct Dielectric {
       // masking already holds 1 / (4 |wo.z| |wi.z|).
       out.f[j] =
           s.transmitted * transmitted[j] * ggx.density(h) * 4 * masking * oh * jacobian * scale;
-      out.pdf[j] = choose(j, s).transmit * ggx.visible(o, h) * oh * jacobian * eta * eta;
+      out.pdf[j] = choose(j, s).transmit * visible(ggx, o, h) * oh * jacobian * eta * eta;
     }
     return out;
   }

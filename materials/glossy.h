@@ -13,7 +13,9 @@
 /// The factor 2 is missing from (6.18) as printed, which also prints P5(n_phi) for
 /// P5(n_phi s_i s_r). f_theta is the density of a Frank copula: its marginals are uniform and it is
 /// symmetric, hence albedo 1 for colour 1 and reciprocity (bitwise: only symmetric expressions of
-/// the two directions enter). Near grazing the lobe moves away from the horizon: that is the model.
+/// the two directions enter). `glossy_back` and `glossy_through` turn the lobe around the direction
+/// that light came from and the one in which it went on. Near grazing the lobe moves away from the
+/// horizon: that is the model.
 
 #include "materials/specular.h"
 
@@ -22,6 +24,8 @@ namespace mms::materials {
 /// Above this gloss the lobe is a mirror: m = 1e5, where rounding a direction in float already
 /// costs 4e-3 of f (4e-4 at m = 1e4, 4e-5 at 1e3).
 inline constexpr double kMaxGloss = 5e4;
+/// n_phi is limited to this: a lobe 4e-4 rad wide.
+inline constexpr double kMaxLongitude = 1e7;
 
 /// The latitudal factor over x and y.
 template <class R>
@@ -117,19 +121,49 @@ struct Longitude {
   }
 };
 
-template <class R>
-struct Glossy {
+/// Around which direction the lobe is: the thesis' three choices of the reflected angle.
+enum class GlossyAngle { Reflection, Backward, Through };
+
+/// `kProduct`: n_theta and n_phi are two numbers; else one gives both as in the thesis' images.
+template <class R, GlossyAngle kAngle, bool kProduct>
+struct GlossyLobe {
   Spectrum<R> colour;
-  R gloss;
+  R gloss, longitude;  ///< n_theta, n_phi
 
-  explicit Glossy(const R* p) : colour(weight_at(p)), gloss(non_negative(p[kWavelengths])) {}
+  explicit GlossyLobe(const R* p) : colour(weight_at(p)), gloss(non_negative(p[kWavelengths])) {
+    longitude = kProduct ? non_negative(p[kWavelengths + 1]) : R(0);
+    if constexpr (kProduct) {
+      if (specular()) return;
+      gloss = std::min(gloss, R(kMaxGloss));
+      longitude = std::min(longitude, R(kMaxLongitude));
+    }
+  }
 
-  bool specular() const { return gloss > R(kMaxGloss); }
+  bool specular() const {
+    if constexpr (kAngle == GlossyAngle::Backward) return false;
+    return gloss > R(kMaxGloss) && (!kProduct || longitude > R(kMaxLongitude));
+  }
   Spectrum<R> estimate(Vec3<R>) const { return colour; }
-  SpecularTerms<R> terms(Vec3<R>) const { return mirror_terms(colour); }
+  SpecularTerms<R> terms(Vec3<R>) const {
+    SpecularTerms<R> t = mirror_terms(colour);
+    if constexpr (kAngle == GlossyAngle::Through) {
+      std::swap(t.reflect_weight, t.transmit_weight);
+      std::swap(t.reflect_probability, t.transmit_probability);
+    }
+    return t;
+  }
+
+  /// The direction whose mirror image is around the lobe's axis, for one around it; its own
+  /// inverse.
+  static Vec3<R> unfolded(Vec3<R> w) {
+    if constexpr (kAngle == GlossyAngle::Backward) return {-w.x, -w.y, w.z};
+    if constexpr (kAngle == GlossyAngle::Through) return {w.x, w.y, -w.z};
+    return w;
+  }
 
   /// f for colour 1.
   R value(Vec3<R> wo, Vec3<R> wi) const {
+    wi = unfolded(wi);
     if (!same_side(wo, wi)) return 0;
     wi = to_upper(wi, wo);
     wo = to_upper(wo, wo);
@@ -171,13 +205,24 @@ struct Glossy {
     const R c = std::cos(dphi), sn = std::sin(dphi);
     wi = normalize(Vec3<R>{r * (tx * c - ty * sn), r * (ty * c + tx * sn), std::sqrt(x)});
     if (!(wi.z > 0)) return false;
-    wi = to_upper(wi, wo);
+    wi = unfolded(to_upper(wi, wo));
     return true;
   }
 
  private:
-  /// The thesis' choice n_phi = 0.75 n sqrt(n s_i s_r), times s_i s_r.
-  R effective(R ss) const { return R(0.75) * gloss * ss * std::sqrt(gloss * ss); }
+  /// n_phi s_i s_r; the thesis' images take n_phi = 0.75 n sqrt(n s_i s_r).
+  R effective(R ss) const {
+    return kProduct ? longitude * ss : R(0.75) * gloss * ss * std::sqrt(gloss * ss);
+  }
 };
+
+template <class R>
+using Glossy = GlossyLobe<R, GlossyAngle::Reflection, false>;
+template <class R>
+using GlossyProduct = GlossyLobe<R, GlossyAngle::Reflection, true>;
+template <class R>
+using GlossyBack = GlossyLobe<R, GlossyAngle::Backward, true>;
+template <class R>
+using GlossyThrough = GlossyLobe<R, GlossyAngle::Through, true>;
 
 }  // namespace mms::materials

@@ -15,6 +15,7 @@
 #include <optional>
 
 #include "materials/combine.h"
+#include "materials/phase_functions.h"
 
 namespace mms::materials {
 
@@ -23,41 +24,6 @@ struct PhaseSample {
   Vec3<R> wi;
   Spectrum<R> f;
   Spectrum<R> pdf;  ///< of each wavelength as the hero; element 0 > 0
-};
-
-/// |g| is limited to this: a peak about 1 - g wide must stay wider than what a float direction
-/// resolves (1e-7 rad: a relative error near 1e-3).
-inline constexpr double kMaxPhaseG = 0.9999;
-
-/// Henyey-Greenstein. The cosine `c` is that of the angle of deflection; its distance from 1 and
-/// from -1 is formed without subtraction.
-template <class R>
-struct HenyeyGreenstein {
-  R g;
-
-  explicit HenyeyGreenstein(R mean_cosine)
-      : g(std::isnan(mean_cosine) ? R(0) : limited(mean_cosine, R(-kMaxPhaseG), R(kMaxPhaseG))) {}
-
-  /// Density per steradian: (1 - g^2) / (4 pi (1 + g^2 - 2 g c)^(3/2)).
-  R density(Vec3<R> wo, Vec3<R> wi) const {
-    const Vec3<R> off = g > 0 ? wi + wo : wi - wo;  // its square is 2 (1 - |g|/g c)
-    const R a = 1 - std::abs(g);
-    const R d = a * a + std::abs(g) * dot(off, off);
-    return a * (1 + std::abs(g)) / (4 * kPi<R> * d * std::sqrt(d));
-  }
-
-  Vec3<R> sample(Vec3<R> wo, R u1, R u2) const {
-    // With t = 2 u1 - 1 (which is c for g = 0): 1 - c and 1 + c without division by g.
-    const R below = 2 * u1, above = 2 * (1 - u1);                   // 1 + t, 1 - t
-    const R q = g > 0 ? (1 - g) + g * below : (1 + g) - g * above;  // 1 + g t
-    const R k = 1 / (2 * q * q);
-    const R one_minus_c = (1 - g) * (1 - g) * above * (2 + g * below) * k;
-    const R one_plus_c = (1 + g) * (1 + g) * below * (2 - g * above) * k;
-    const R c = one_minus_c < one_plus_c ? 1 - one_minus_c : one_plus_c - 1;
-    const R s = std::sqrt(one_minus_c * one_plus_c), phi = 2 * kPi<R> * u2;
-    const Frame<R> frame = Frame<R>::around(-wo);
-    return normalize(frame.to_world({s * std::cos(phi), s * std::sin(phi), c}));
-  }
 };
 
 template <class R>
@@ -74,7 +40,9 @@ class Phase {
     const Spectrum<R> sum = weigh_nodes(weights);
     Lobes<R> total;
     for (int i = 0; i < node_count(); ++i)
-      if (is_phase(i)) total.f += weights.of[i] * model(i).density(wo, wi);
+      if (is_phase(i))
+        total.f +=
+            weights.of[i] * with_function(i, [&](const auto& m) { return m.density(wo, wi); });
     // Every function is its own density, so choosing by weight makes pdf a multiple of f.
     for (int j = 0; j < kWavelengths; ++j) total.pdf[j] = sum[j] > 0 ? total.f[j] / sum[j] : R(0);
     return total;
@@ -94,7 +62,7 @@ class Phase {
       left -= weights.of[i][0];
     }
     PhaseSample<R> s;
-    s.wi = model(chosen).sample(wo, u1, u2);
+    s.wi = with_function(chosen, [&](const auto& m) { return m.sample(wo, u1, u2); });
     const Lobes<R> l = evaluate(wo, s.wi);
     s.f = l.f;
     s.pdf = l.pdf;
@@ -106,9 +74,21 @@ class Phase {
   int node_count() const { return int(layout_->nodes().size()); }
   bool is_phase(int i) const { return (traits(layout_->nodes()[i].lobe) & PhaseFunction) != 0; }
 
-  HenyeyGreenstein<R> model(int i) const {
+  /// `visit(function)` for the phase function of node `i`.
+  template <class Visit>
+  auto with_function(int i, Visit visit) const {
     const Layout::Node& node = layout_->nodes()[i];
-    return HenyeyGreenstein<R>(node.lobe == Lobe::Isotropic ? R(0) : params_[node.first_param]);
+    const R* p = params_ + node.first_param;
+    switch (node.lobe) {
+      case Lobe::Isotropic:
+        return visit(HenyeyGreenstein<R>(R(0)));
+      case Lobe::RayleighPhase:
+        return visit(Draine<R>(R(0), R(1)));
+      case Lobe::Draine:
+        return visit(Draine<R>(p[0], p[1]));
+      default:
+        return visit(HenyeyGreenstein<R>(p[0]));
+    }
   }
 
   /// Fills the weight of every node; the sum over phase functions.

@@ -43,6 +43,7 @@ constexpr unsigned traits(Lobe lobe) { return kTraits[static_cast<int>(lobe)]; }
 /// Kinds of the arguments of a row, in formal order: 'm'aterial, 's'pectrum or 'r'eal.
 struct Formals {
   char kinds[8] = {};
+  bool tint[8] = {};  ///< a colour: the model's weight for light is at most the largest of these
   int count = 0;
 };
 
@@ -58,7 +59,10 @@ constexpr Formals formals(std::string_view signature) {
     while (item.starts_with(' ')) item.remove_prefix(1);
     for (std::string_view type : {"material ", "spectrum ", "real "})
       if (item.starts_with(type)) kind = type[0];
-    if (!item.empty()) f.kinds[f.count++] = kind;
+    if (item.empty()) continue;
+    for (std::string_view tint : {"colour", "reflected", "transmitted"})
+      f.tint[f.count] |= kind == 's' && item.find(tint) != item.npos;
+    f.kinds[f.count++] = kind;
   }
   return f;
 }

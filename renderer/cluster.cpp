@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/cluster.h"
 
+#include <cstdint>
+
 #include "materials/colour.h"
 #include "materials/spectra.h"
 
@@ -19,6 +21,19 @@ std::array<double, 3> Cluster::xyz(const Spectrumf& radiance) const {
     sum[2] += double(radiance[i]) * z[i];
   }
   return sum;
+}
+
+double cluster_number(float u) {
+  constexpr int kBits = 24;
+  const auto x = std::uint32_t(u * float(1 << kBits));
+  std::uint32_t hero = 0, place = 0;
+  for (int i = 0; i < kBits; ++i) {
+    const std::uint32_t digit = x >> (kBits - 1 - i) & 1;
+    const bool of_hero = i == 1 || i == 3 || i == 5;
+    std::uint32_t& to = of_hero ? hero : place;
+    to = to << 1 | digit;
+  }
+  return double(hero << (kBits - 3) | place) / (1 << kBits);
 }
 
 Cluster sample_cluster(double u) {

@@ -27,4 +27,10 @@ struct Cluster {
 /// The cluster drawn by `u` in [0, 1).
 Cluster sample_cluster(double u);
 
+/// Puts the digits of a number in [0, 1) into another order: the number that draws a cluster says
+/// with its first three binary digits which wavelength is the hero, and with the others where all
+/// eight lie. A stratified number has its strata in its first digits, and where hardly anything
+/// depends on wavelength only the latter matter; so the two take turns, the latter first.
+double cluster_number(float u);
+
 }  // namespace mms::renderer

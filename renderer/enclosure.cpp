@@ -14,8 +14,6 @@ namespace {
 using vm::Interval;
 using vm::Variable;
 
-double component(Vec3d v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
-
 /// An interval with room for the rounding of a point that is found along a ray.
 Interval roomy(double low, double high) {
   const double room = 1e-4 * (high - low) + 1e-6 * std::max(std::abs(low), std::abs(high));
@@ -46,20 +44,26 @@ double largest(const vm::Box& box, std::span<const int> axes, F f) {
   return most;
 }
 
+/// Says that points are in `world`.
+void set_positions(vm::Box& box, const Bounds& world, const Transform& transform) {
+  Bounds local;
+  for (int corner = 0; corner < 8; ++corner)
+    local.add(transform.inverse_point({corner & 1 ? world.high.x : world.low.x,
+                                       corner & 2 ? world.high.y : world.low.y,
+                                       corner & 4 ? world.high.z : world.low.z}));
+  for (int k = 0; k < 3; ++k) {
+    box.at(Variable::Position, k) = roomy(world.low[k], world.high[k]);
+    box.at(Variable::ObjectPosition, k) = roomy(local.low[k], local.high[k]);
+  }
+}
+
 }  // namespace
 
 vm::Box box_of(const Object& o) {
   constexpr double kInf = Interval::kInf;
   vm::Box box = vm::Box::unit_sphere();
-  const Bounds world = bounds(o.shape);
-  Bounds local;
-  for (int corner = 0; corner < 8; ++corner)
-    local.add(o.transform.inverse_point({corner & 1 ? world.high.x : world.low.x,
-                                         corner & 2 ? world.high.y : world.low.y,
-                                         corner & 4 ? world.high.z : world.low.z}));
+  set_positions(box, bounds(o.shape), o.transform);
   for (int k = 0; k < 3; ++k) {
-    box.at(Variable::Position, k) = roomy(component(world.low, k), component(world.high, k));
-    box.at(Variable::ObjectPosition, k) = roomy(component(local.low, k), component(local.high, k));
     for (const Variable v : {Variable::ObjectTangent, Variable::ObjectBitangent,
                              Variable::NormalTangent, Variable::NormalBitangent})
       box.at(v, k) = {-kInf, kInf, false};
@@ -70,20 +74,35 @@ vm::Box box_of(const Object& o) {
   return box;
 }
 
-double largest_extinction(const vm::Program& program, const vm::Descriptor& d, const Object& o) {
+MajorantGrid majorants_of(const vm::Program& program, const vm::Descriptor& d, const Object& o,
+                          double bound, bool emits) {
+  constexpr int n = kMajorantCells;
   vm::BoundsMachine machine(program);
   const vm::Entry& entry = d.pass;
-  constexpr std::array outputs = {vm::Output::Scattering, vm::Output::Absorption};
-  return largest(box_of(o), positions_read(d, outputs), [&](const vm::Box& part) {
+  const Bounds all = bounds(o.shape);
+  const Vec3d cell = (all.high - all.low) / double(n);
+  std::vector<float> values;
+  for (int i = 0; i < n * n * n; ++i) {
+    Bounds part;
+    part.low = all.low + cell * Vec3d{double(i % n), double(i / n % n), double(i / n / n)};
+    part.high = part.low + cell;
+    vm::Box box = box_of(o);
+    set_positions(box, part, o.transform);
     vm::Enclosure e;
-    if (entry.function) e = machine.run(*entry.function, part);
+    if (entry.function) e = machine.run(*entry.function, box);
     const auto most = [&](const vm::ValueSource& v) {
-      const Interval i =
+      const Interval r =
           v.constant ? vm::interval_of(program.constants[v.index]) : e.results[v.index];
-      return std::max(i.hi, 0.0);  // negative coefficients count as 0
+      return std::max(r.hi, 0.0);  // negative coefficients count as 0
     };
-    return vm::float_above(most(entry.scattering) + most(entry.absorption));
-  });
+    const double found = most(entry.scattering) + most(entry.absorption);
+    values.push_back(std::min(float(vm::float_above(found)), float(bound)));
+  }
+  if (emits) {
+    const float least = *std::max_element(values.begin(), values.end()) / 4;
+    for (float& v : values) v = std::max(v, least);
+  }
+  return {all, n, std::move(values)};
 }
 
 double largest_height(const vm::Program& program, const vm::Descriptor& d, const Object& o) {

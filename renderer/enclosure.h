@@ -5,6 +5,7 @@
 /// What is certain of an object's script without running it at points: enclosures over the box
 /// around its shape (vm/bounds.h).
 
+#include "renderer/majorants.h"
 #include "renderer/scene.h"
 #include "vm/bounds.h"
 
@@ -13,9 +14,12 @@ namespace mms::renderer {
 /// What a script can be told of any point in the box around `o`, or on its surface.
 vm::Box box_of(const Object& o);
 
-/// The largest scattering + absorption of the volume `d` at any wavelength anywhere in `o`, 1/m:
-/// the largest over a grid of kMajorantCells^3 boxes. Infinite where none is found.
-double largest_extinction(const vm::Program& program, const vm::Descriptor& d, const Object& o);
+/// The largest scattering + absorption of the volume `d` at any wavelength in each of
+/// kMajorantCells^3 parts of the box around `o`, and nowhere above `bound`. Infinite where none is
+/// found and `bound` is infinite. Where the volume emits, no cell has less than a quarter of the
+/// largest: light is found at collisions.
+MajorantGrid majorants_of(const vm::Program& program, const vm::Descriptor& d, const Object& o,
+                          double bound, bool emits);
 inline constexpr int kMajorantCells = 16;
 
 /// The largest `height` of the surface `d` anywhere on `o`, m: what its `bound` is where the author

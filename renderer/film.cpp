@@ -162,12 +162,16 @@ Film FilmSums::develop() const {
   Film film{rect_.width(), rect_.y1 - rect_.y0, {}, {}};
   film.xyz.reserve(pixels_.size());
   film.variance.reserve(pixels_.size());
+  film.samples.reserve(pixels_.size());
+  film.dropped.reserve(pixels_.size());
   for (const PixelSums& p : pixels_) {
     const double weight = p.weight > 0 ? double(p.weight) / kWeightUnit : 1;
     std::array<double, 3> mean{};
     for (int i = 0; i < 3; ++i) mean[i] = double(p.xyz[i]) / kSumUnit / weight;
     film.xyz.push_back(mean);
     film.variance.push_back(variance(p));
+    film.samples.push_back(p.samples);
+    film.dropped.push_back(p.dropped);
   }
   return film;
 }

@@ -22,7 +22,7 @@ static_assert(std::endian::native == std::endian::little);
 static_assert(sizeof(PixelSums) == 80 && std::is_trivially_copyable_v<PixelSums>);
 
 constexpr std::string_view kFilmMagic = "\x89mmf\r\n\x1a\n";
-constexpr std::uint32_t kFilmVersion = 1;
+constexpr std::uint32_t kFilmVersion = 2;
 constexpr std::size_t kHashAt = 12, kBodyAt = 20;
 constexpr int kLargestSide = 32768;
 
@@ -67,6 +67,8 @@ void put_key(std::string& out, const FilmKey& k) {
   put(out, std::int32_t(k.height));
   put(out, std::int32_t(k.filter));
   put(out, std::int32_t(k.max_depth));
+  put(out, std::int32_t(k.estimator));
+  put(out, std::int32_t(k.generator));
   put(out, k.seed);
   put(out, k.script);
   put(out, k.scene);
@@ -79,12 +81,17 @@ std::optional<FilmKey> get_key(Reader& in) {
   k.height = in.get<std::int32_t>();
   const auto filter = in.get<std::int32_t>();
   k.max_depth = in.get<std::int32_t>();
+  const auto estimator = in.get<std::int32_t>(), generator = in.get<std::int32_t>();
   k.seed = in.get<std::uint64_t>();
   k.script = in.get<std::uint64_t>();
   k.scene = in.get<std::uint64_t>();
   if (k.width < 1 || k.width > kLargestSide || k.height < 1 || k.height > kLargestSide) return {};
   if (filter < 0 || filter >= int(filters().size())) return {};
+  if (estimator < 0 || estimator >= int(estimators().size())) return {};
+  if (generator < 0 || generator >= int(generators().size())) return {};
   k.filter = FilterShape(filter);
+  k.estimator = Estimator(estimator);
+  k.generator = Generator(generator);
   return k;
 }
 
@@ -150,8 +157,8 @@ std::string contents(const FilmKey& key, const PartialFilm& film) {
 }  // namespace
 
 FilmKey film_key(const Scene& scene, const RenderOptions& options, std::uint64_t script) {
-  return {options.width,     options.height, options.filter,   options.seed,
-          options.max_depth, script,         scene.data().hash};
+  return {options.width,     options.height,    options.filter, options.seed,     options.max_depth,
+          options.estimator, options.generator, script,         scene.data().hash};
 }
 
 std::string difference(const FilmKey& a, const FilmKey& b) {
@@ -162,6 +169,12 @@ std::string difference(const FilmKey& a, const FilmKey& b) {
                        filters()[std::size_t(b.filter)].name);
   if (a.seed != b.seed) return fmt::format("seed {} and {}", a.seed, b.seed);
   if (a.max_depth != b.max_depth) return fmt::format("depth {} and {}", a.max_depth, b.max_depth);
+  if (a.estimator != b.estimator)
+    return fmt::format("estimator {} and {}", estimators()[std::size_t(a.estimator)].name,
+                       estimators()[std::size_t(b.estimator)].name);
+  if (a.generator != b.generator)
+    return fmt::format("sampler {} and {}", generators()[std::size_t(a.generator)].name,
+                       generators()[std::size_t(b.generator)].name);
   if (a.script != b.script) return "other scripts or settings";
   if (a.scene != b.scene) return "other scenes, surfaces or volumes";
   return "";

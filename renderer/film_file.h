@@ -20,6 +20,8 @@ struct FilmKey {
   FilterShape filter = FilterShape::Box;
   std::uint64_t seed = 0;
   int max_depth = 0;
+  Estimator estimator = Estimator::Clustered;
+  Generator generator = Generator::Niederreiter;
   std::uint64_t script = 0;  ///< hash of the linked program, with its settings
   std::uint64_t scene = 0;   ///< hash of the scene, its files, and what the test object wears
   bool operator==(const FilmKey&) const = default;

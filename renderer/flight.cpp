@@ -44,9 +44,31 @@ void Carried::rescale() {
   light_pdf *= scale;
 }
 
-Spectrumf Carried::weighted(double light_density) const {
-  const double sum = double(pdf.sum()) + (light_density > 0 ? light_density * light_pdf.sum() : 0);
-  return sum > 0 ? beta * float(1 / sum) : Spectrumf(0.0f);
+Spectrumf Carried::weighted(double light_density, Estimator estimator) const {
+  const auto density = [&](float p, float light) {
+    return double(p) + (light_density > 0 ? light_density * light : 0);
+  };
+  if (estimator == Estimator::Clustered) {
+    const double sum = density(pdf.sum(), light_pdf.sum());
+    return sum > 0 ? beta * float(1 / sum) : Spectrumf(0.0f);
+  }
+  const double hero = density(pdf[0], light_pdf[0]);
+  if (!(hero > 0)) return Spectrumf(0.0f);
+  if (estimator == Estimator::Unweighted) return beta * float(1 / (kWavelengths * hero));
+  Spectrumf one;
+  one[0] = beta[0] * float(1 / hero);
+  return one;
+}
+
+Flight camera_flight(const World& world, int path, const Sampler& sampler, double x, double y) {
+  const CameraRay ray = world.camera.at(x, y, sampler(kLensU), sampler(kLensV));
+  Flight f;
+  f.origin = ray.origin;
+  f.direction = ray.direction;
+  f.path = path;
+  f.t_max = kInfinity;
+  f.media = world.camera_media;
+  return f;
 }
 
 ScriptPoint script_point(const World& world, const Flight& f, const Hit* hit,
@@ -142,9 +164,12 @@ Flights::Need Flights::advance(Flight& f, Crossings& crossings, const PathView& 
         if (f.medium_object != object) return Need::Coefficients;
         if (through_homogeneous(f, to - f.t, path)) return Need::Nothing;
       } else {
-        const float step = -std::log1p(-random(f, path)) / float(world_.majorants[object]);
-        if (f.t + step < to) {  // never where the medium is empty
-          f.t += step;
+        const double depth = -std::log1p(-random(f, path));
+        const MajorantGrid::Collision c =
+            world_.majorants[object].collide(Vec3d(f.origin), Vec3d(f.direction), f.t, to, depth);
+        if (c.t < to) {  // never where the medium is empty
+          f.t = float(c.t);
+          f.majorant = c.majorant;
           return Need::Collision;
         }
       }
@@ -174,7 +199,7 @@ bool Flights::through_homogeneous(Flight& f, float length, const PathView& path)
     for (int k = 0; k < kWavelengths; ++k)
       optical[k] =
           extinction[k] > 0 ? -std::expm1(-extinction[k] * length) / extinction[k] : length;
-    *path.radiance += f.carried.weighted(0) * f.emission * optical;
+    *path.radiance += f.carried.weighted(0, world_.estimator) * f.emission * optical;
   }
   const float hero = f.scattering[0];
   const float s = hero > 0 ? -std::log1p(-random(f, path)) / hero : kInfinity;
@@ -264,7 +289,7 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
 void Flights::collide(Flight& f, const PathView& path) {
   ++counters_.media_steps;
   ++counters_.medium_samples;
-  const float majorant = float(world_.majorants[f.medium_object]);
+  const float majorant = f.majorant;
   f.medium_object = -1;  // valid at this point only
   bool denser = false;
   Spectrumf scattered, nothing;  // probabilities, per wavelength; what is left is absorbed
@@ -285,7 +310,8 @@ void Flights::collide(Flight& f, const PathView& path) {
     if (f.carried.beta.is_black()) f.end = End::Lost;
     return;
   }
-  if (!f.emission.is_black()) *path.radiance += f.carried.weighted(0) * f.emission * (1 / majorant);
+  if (!f.emission.is_black())
+    *path.radiance += f.carried.weighted(0, world_.estimator) * f.emission * (1 / majorant);
   if (random(f, path) < scattered[0]) {
     f.carried.happened(scattered, scattered);
     f.end = End::Medium;
@@ -339,7 +365,7 @@ void Flights::add_crossing_emission(const Flight& f, const ScriptPoint& point,
                                     const Spectrumf& emitted, const PathView& path) {
   const int object = int(point.object - world_.scene.objects.data());
   const double light = world_.lights.pdf(Vec3d(f.origin), object, point.surface);
-  *path.radiance += f.carried.weighted(light) * emitted;
+  *path.radiance += f.carried.weighted(light, world_.estimator) * emitted;
 }
 
 }  // namespace mms::renderer

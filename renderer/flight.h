@@ -26,8 +26,8 @@ struct Carried {
   /// Scales by the largest density.
   void rescale();
   /// Weight of light found with density `light_density` per steradian by the other technique:
-  /// the balance heuristic over both techniques and all wavelengths.
-  Spectrumf weighted(double light_density) const;
+  /// the balance heuristic over both techniques and, if clustered, all wavelengths.
+  Spectrumf weighted(double light_density, Estimator estimator) const;
 };
 
 enum class Errand : std::uint8_t { Path, Shadow };
@@ -54,6 +54,7 @@ struct Flight {
   Media media;
   Carried carried;
   int medium_object = -1;                      ///< whose coefficients these are
+  float majorant = 0;                          ///< at the tentative collision it has come to, 1/m
   Spectrumf scattering, absorption, emission;  ///< 1/m, 1/m, W m^-3 sr^-1 nm^-1
 };
 
@@ -111,6 +112,10 @@ class Flights {
   std::vector<const ScriptPoint*> lanes_;
   std::vector<float> params_;
 };
+
+/// A flight of path `path` from the camera through (x, y), in pixels; `sampler` chooses the point
+/// of the lens.
+Flight camera_flight(const World& world, int path, const Sampler& sampler, double x, double y);
 
 /// The point a flight has come to, for a script: on the surface of `hit`, or free in a volume.
 ScriptPoint script_point(const World& world, const Flight& f, const Hit* hit, const PathView& path);

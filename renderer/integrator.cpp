@@ -114,21 +114,14 @@ void Integrator::start(std::span<const PixelSample> samples, std::span<FilmSampl
   for (int i = 0; i < int(samples.size()); ++i) {
     const PixelSample& s = samples[i];
     Path& p = paths_[i];
-    p.sampler = Sampler(world_.seed, s.x, s.y, std::uint64_t(s.sample));
-    p.cluster = sample_cluster(p.sampler(kWavelength));
+    p.sampler = Sampler(world_.seed, s.x, s.y, std::uint64_t(s.sample), world_.generator);
+    p.cluster = sample_cluster(cluster_number(p.sampler(kWavelength)));
     FilmSample& point = stream[i];
     point.x = s.x + double(p.sampler(kFilmX));
     point.y = s.y + double(p.sampler(kFilmY));
     point.number = std::uint32_t(s.sample);
-    const CameraRay ray = world_.camera.at(point.x, point.y, p.sampler(kLensU), p.sampler(kLensV));
     views_.push_back({&p.cluster, &p.sampler, &p.radiance, world_.camera.pixel_angle()});
-    Flight f;
-    f.origin = ray.origin;
-    f.direction = ray.direction;
-    f.path = i;
-    f.t_max = std::numeric_limits<float>::infinity();
-    f.media = world_.camera_media;
-    now_.push_back(f);
+    now_.push_back(camera_flight(world_, i, p.sampler, point.x, point.y));
   }
 }
 
@@ -141,7 +134,7 @@ void Integrator::gather() {
     if (f.end == End::Free) {
       const Vec3d d(f.direction);
       const Spectrumf weight =
-          f.carried.weighted(world_.lights.pdf_environment(Vec3d(f.origin), d));
+          f.carried.weighted(world_.lights.pdf_environment(Vec3d(f.origin), d), world_.estimator);
       p.radiance += weight * world_.lights.environment(d, p.cluster);
     } else if (f.end == End::Surface || f.end == End::Medium) {
       const bool medium = f.end == End::Medium;
@@ -162,7 +155,7 @@ void Integrator::add_emission(const Vertex& v, const Spectrumf& emitted) {
   if (emitted.is_black() || v.from->emission_seen) return;
   const double light =
       world_.lights.pdf(Vec3d(v.from->origin), v.from->hit.object, v.point.surface);
-  paths_[v.from->path].radiance += v.from->carried.weighted(light) * emitted;
+  paths_[v.from->path].radiance += v.from->carried.weighted(light, world_.estimator) * emitted;
 }
 
 /// One batch: vertices that wear the same surface or lie in volumes of the same descriptor.
@@ -356,7 +349,8 @@ void Integrator::light_connections() {
   flights_.fly(shadows_, views_);
   for (std::size_t i = 0; i < kept; ++i)
     if (shadows_[i].end == End::Free)
-      paths_[shadows_[i].path].radiance += shadows_[i].carried.weighted(densities[i]);
+      paths_[shadows_[i].path].radiance +=
+          shadows_[i].carried.weighted(densities[i], world_.estimator);
 }
 
 /// Russian roulette by the mean contribution that the path still carries. It is the same whatever

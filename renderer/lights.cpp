@@ -11,6 +11,10 @@ namespace {
 
 constexpr double kTwoPi = 2 * kPi<double>;
 
+/// Share of choices that is spread evenly over all lights, for what estimates get wrong: a lamp
+/// that shines backwards, a small one beside a large one.
+constexpr double kEvenly = 0.1;
+
 double luminance(const Rgb& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; }
 
 /// Index of the step of a cumulative table (from 0 to its last entry) that `u` falls in, and what
@@ -91,8 +95,7 @@ Lights::Lights(const SceneData& scene, const std::vector<double>& radiance)
     if (!(radiance[i] > 0)) continue;
     const Shape& shape = scene.objects[i].shape;
     Choice c{i, radiance[i], area(shape), bounds(shape).centre(), {}, {}};
-    if (std::holds_alternative<Quad>(shape) || std::holds_alternative<Disc>(shape))
-      c.facing = sample_surface(shape, 0.5, 0.5).normal;
+    if (open(shape)) c.facing = sample_surface(shape, 0.5, 0.5).normal;
     if (const Mesh* m = std::get_if<Mesh>(&shape)) {
       c.triangles.push_back(0);
       for (std::uint32_t t = 0; t < m->triangles.size(); ++t)
@@ -104,11 +107,15 @@ Lights::Lights(const SceneData& scene, const std::vector<double>& radiance)
   // Scattering directions find an even environment better than any density of light directions
   // that knows nothing of the surface, so only a picture is sampled as a light.
   if (scene.environment.image) add_environment();
-  double sum = 0;
-  for (Choice& c : choices_) sum += c.probability = irradiance(c, scene.camera.target);
-  for (Choice& c : choices_)
-    c.probability = (sum > 0 ? 0.9 * c.probability / sum : 0.9 / double(choices_.size())) +
-                    0.1 / double(choices_.size());
+  if (choices_.size() <= kLightsWeighed) return;
+  std::vector<LightExtent> extents;
+  for (const Choice& c : choices_) {
+    if (c.object == kEnvironment) continue;  // the last; it is chosen beside the tree
+    const double seen = dot(c.facing, c.facing) > 0 ? 1 : 0.25;
+    extents.push_back(
+        {bounds(scene.objects[c.object].shape), c.radiance * c.area * seen, c.facing});
+  }
+  tree_ = LightTree(extents);
 }
 
 void Lights::add_environment() {
@@ -153,25 +160,58 @@ std::array<double, kLightsWeighed> Lights::weigh(Vec3d from) const {
   std::array<double, kLightsWeighed> p{};
   double sum = 0;
   for (int i = 0; i < n; ++i) sum += p[i] = irradiance(choices_[i], from);
-  // A tenth is spread evenly, for what the estimate gets wrong.
-  for (int i = 0; i < n; ++i) p[i] = (sum > 0 ? 0.9 * p[i] / sum : 0.9 / n) + 0.1 / n;
+  for (int i = 0; i < n; ++i) p[i] = (1 - kEvenly) * (sum > 0 ? p[i] / sum : 1.0 / n) + kEvenly / n;
   return p;
 }
 
+/// Probability that the environment is drawn rather than the tree.
+double Lights::environment_share(Vec3d from) const {
+  if (environment_choice_ < 0) return 0;
+  const double sky = irradiance(choices_[environment_choice_], from);
+  return sky / (sky + tree_.importance(from));
+}
+
 double Lights::probability(int i, Vec3d from) const {
-  return choices_.size() <= kLightsWeighed ? weigh(from)[i] : choices_[i].probability;
+  const int n = int(choices_.size());
+  if (n <= kLightsWeighed) return weigh(from)[i];
+  const double sky = environment_share(from);
+  return kEvenly / n +
+         (1 - kEvenly) * (i == environment_choice_ ? sky : (1 - sky) * tree_.probability(i, from));
+}
+
+/// Draws a light, and leaves in `u` what is not used up.
+int Lights::choose(Vec3d from, double& u) const {
+  const int n = int(choices_.size());
+  const auto spend = [&](double low, double width) {
+    u = std::clamp((u - low) / width, 0.0, 1 - 0x1p-53);
+  };
+  if (n <= kLightsWeighed) {
+    const std::array<double, kLightsWeighed> p = weigh(from);
+    int chosen = 0;
+    double below = 0;
+    while (chosen + 1 < n && u >= below + p[chosen]) below += p[chosen++];
+    spend(below, p[chosen]);
+    return chosen;
+  }
+  if (u < kEvenly) {
+    const int chosen = std::min(int(u / kEvenly * n), n - 1);
+    spend(kEvenly * chosen / n, kEvenly / n);
+    return chosen;
+  }
+  spend(kEvenly, 1 - kEvenly);
+  const double sky = environment_share(from);
+  if (u < sky) {
+    spend(0, sky);
+    return environment_choice_;
+  }
+  spend(sky, 1 - sky);
+  const LightTree::Drawn d = tree_.sample(from, u);
+  u = d.rest;
+  return d.light;
 }
 
 LightSample Lights::sample(Vec3d from, double u, double v) const {
-  std::array<double, kLightsWeighed> weighed{};
-  const bool few = choices_.size() <= kLightsWeighed;
-  if (few) weighed = weigh(from);
-  const auto p = [&](std::size_t i) { return few ? weighed[i] : choices_[i].probability; };
-  std::size_t chosen = 0;
-  double below = 0;
-  while (chosen + 1 < choices_.size() && u >= below + p(chosen)) below += p(chosen++);
-  u = std::clamp((u - below) / p(chosen), 0.0, 1 - 0x1p-53);
-  const Choice* c = &choices_[chosen];
+  const Choice* c = &choices_[choose(from, u)];
   if (c->object == kEnvironment) return sample_environment(from, u, v);
   LightSample s;
   s.object = c->object;

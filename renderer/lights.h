@@ -10,13 +10,14 @@
 
 #include "renderer/accel.h"
 #include "renderer/cluster.h"
+#include "renderer/light_tree.h"
 #include "renderer/scene.h"
 
 namespace mms::renderer {
 
 inline constexpr int kEnvironment = -1;
 
-/// Up to so many lights are weighed anew for each point.
+/// Up to so many lights are weighed one by one for each point; more are kept in a tree.
 inline constexpr int kLightsWeighed = 32;
 
 /// A direction towards a light, as seen from some point.
@@ -52,9 +53,8 @@ class Lights {
 
   bool any() const { return !choices_.empty(); }
 
-  /// Draws a light by its estimated irradiance at `from` (where there are more than kLightsWeighed,
-  /// at the point the camera looks at), then a direction. `u` chooses the light, and what is left
-  /// of it the place on the light.
+  /// Draws a light by its estimated irradiance at `from`, then a direction. `u` chooses the light,
+  /// and what is left of it the place on the light.
   LightSample sample(Vec3d from, double u, double v) const;
 
   /// Density, per steradian and choice included, of drawing the direction from `from` that meets
@@ -71,13 +71,14 @@ class Lights {
     double radiance, area;
     Vec3d centre, facing;           ///< `facing` is zero where light leaves to all sides
     std::vector<double> triangles;  ///< cumulative area of a mesh's triangles
-    double probability = 0;         ///< as seen from the focus
   };
   void add_environment();
   static double irradiance(const Choice& c, Vec3d at);
   /// Probability of drawing light `i` at `from`, for each light.
   std::array<double, kLightsWeighed> weigh(Vec3d from) const;
+  double environment_share(Vec3d from) const;
   double probability(int i, Vec3d from) const;
+  int choose(Vec3d from, double& u) const;
   Rgb texel(double x, double y) const;
   LightSample sample_environment(Vec3d from, double u, double v) const;
 
@@ -85,6 +86,7 @@ class Lights {
   std::vector<Choice> choices_;
   std::vector<int> choice_of_;  ///< object to choice, or -1
   int environment_choice_ = -1;
+  LightTree tree_;  ///< of all choices but the environment, if they are many
   TexelDensity texels_;
 };
 

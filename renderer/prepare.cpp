@@ -81,9 +81,9 @@ class Probe {
   Result<Findings> run() {
     Findings findings;
     for (const Object& o : scene_.objects) {
-      const Result<double> majorant = majorant_of(o);
-      if (!majorant) return majorant.error();
-      findings.majorants.push_back(*majorant);
+      Result<MajorantGrid> grid = majorants(o);
+      if (!grid) return grid.error();
+      findings.majorants.push_back(std::move(*grid));
       findings.radiance.push_back(radiance_of(o));
       if (o.volume >= 0)
         run_all(*scene_.volumes[o.volume].script, EntryKind::Shade, points_of(o, true, cluster_),
@@ -94,14 +94,14 @@ class Probe {
   }
 
  private:
-  Result<double> majorant_of(const Object& o) const {
-    if (o.volume < 0) return 0.0;
+  Result<MajorantGrid> majorants(const Object& o) const {
+    if (o.volume < 0) return MajorantGrid();
     const vm::Descriptor& d = *scene_.volumes[o.volume].script;
     const CompiledDescriptor& c = compiled_.of(&d);
-    if (c.homogeneous) return 0.0;
-    if (c.majorant > 0) return c.majorant;
-    const double found = largest_extinction(compiled_.program(), d, o);
-    if (std::isfinite(found)) return found;
+    if (c.homogeneous) return MajorantGrid();
+    MajorantGrid grid = majorants_of(compiled_.program(), d, o,
+                                     c.majorant > 0 ? c.majorant : vm::Interval::kInf, c.emits);
+    if (std::isfinite(grid.largest())) return grid;
     return Error{
         place(compiled_.program(), d.line.source, d.line.line),
         fmt::format("volume `{}` varies from place to place, states no `bound`, and none is found",

@@ -9,15 +9,16 @@
 #include <vector>
 
 #include "base/result.h"
+#include "renderer/majorants.h"
 #include "renderer/scripts.h"
 
 namespace mms::renderer {
 
 struct Findings {
   std::vector<double> radiance;  ///< mean luminance of each object's surface; 0 is no emitter
-  /// Largest extinction of each object's volume where it varies from place to place, 1/m: as
-  /// stated, else as found by enclosure; 0 for other objects.
-  std::vector<double> majorants;
+  /// Largest extinction of each object's volume where it varies from place to place, in parts: as
+  /// found by enclosure, and nowhere above what is stated; empty for other objects.
+  std::vector<MajorantGrid> majorants;
 };
 
 /// Runs the scripts at kProbePoints points. Errors: a script that exceeds its budget; a volume that

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "renderer/job.h"
+#include "renderer/layers.h"
 #include "renderer/prepare.h"
 
 namespace mms::renderer {
@@ -61,13 +62,19 @@ Result<Rendered> render(const vm::Program& program, const Scene& scene,
               plain,
               options.seed,
               options.max_depth,
-              std::move(findings->majorants)};
+              std::move(findings->majorants),
+              options.estimator,
+              options.generator};
   for (int i = 0; i < int(data.objects.size()); ++i)
     world.sealed.push_back(sealed(data, compiled, i));
   for (int i = 0; i < int(data.objects.size()); ++i)
     if (data.objects[i].volume >= 0 && contains(data.objects[i].shape, data.camera.position))
       world.camera_media.enter(i);
-  return Job(world, options).run();
+  Rendered rendered = Job(world, options).run();
+  if (options.layers)
+    rendered.layers = std::make_shared<const Layers>(
+        trace_layers(world, options.width, options.height, options.samples, options.threads));
+  return rendered;
 }
 
 }  // namespace mms::renderer

@@ -15,6 +15,7 @@
 
 #include "base/result.h"
 #include "renderer/filter.h"
+#include "renderer/switches.h"
 #include "vm/program.h"
 
 namespace mms::renderer {
@@ -26,6 +27,8 @@ struct SceneSource {
   /// scenes). Empty: what the scene says, else the program's only surface, and the volume of the
   /// same name if there is one.
   std::string surface, volume;
+  /// Turns the object under test about the vertical axis through its own origin; radians.
+  double turn = 0;
 };
 
 /// Names of the built-in scenes, the default first.
@@ -72,12 +75,15 @@ struct RenderOptions {
   std::uint64_t seed = 0;
   int max_depth = 64;  ///< scattering events of a path, at least 1
   FilterShape filter = FilterShape::BlackmanHarris;
+  Estimator estimator = Estimator::Clustered;
+  Generator generator = Generator::Niederreiter;
   /// What is there already, of the same scene and options: only other samples are made. May be
   /// null.
   std::shared_ptr<const PartialFilm> begin_with;
   /// Called every `save_seconds` with what is there, from the thread that called `render`.
   std::function<void(const PartialFilm&)> save;
   double save_seconds = 60;
+  bool layers = false;  ///< find Rendered::layers too
   /// Called from one thread at a time, at most ten times a second, and once at the end.
   std::function<void(const Progress&)> progress;
   /// When it becomes true, rendering ends soon with what is there. May be null.
@@ -140,30 +146,24 @@ struct Film {
   int width = 0, height = 0;
   std::vector<std::array<double, 3>> xyz;  ///< row by row, top first
   std::vector<double> variance;            ///< of the mean of Y
+  /// Of the samples that fell into each pixel: all, and those that were not finite. May be empty.
+  std::vector<std::uint32_t> samples = {}, dropped = {};
 };
+
+struct Layers;  // renderer/layers.h
 
 struct Rendered {
   Film film;
   Report report;
-  std::shared_ptr<const PartialFilm> sums;  ///< what the film was developed from
+  std::shared_ptr<const PartialFilm> sums;    ///< what the film was developed from
+  std::shared_ptr<const Layers> layers = {};  ///< null unless asked for
 };
+
+/// Success with nothing to say.
+struct Done {};
 
 /// Renders; the error's `where` is the source line where the probe faulted, or the option.
 Result<Rendered> render(const vm::Program& program, const Scene& scene,
                         const RenderOptions& options);
-
-/// How a linear picture becomes a display picture. Ignored for linear formats.
-struct ToneOptions {
-  double exposure = 0;  ///< stops
-};
-
-struct Done {};
-
-/// Whether `path` has a supported extension (pictures and films) and its folder can be written to.
-Result<Done> check_writable(const std::string& path);
-
-/// Writes .png (8-bit sRGB, tone mapped) or .exr (32-bit float linear sRGB primaries and a
-/// `variance` channel). Atomic: the file is there in full or not at all.
-Result<Done> write_image(const std::string& path, const Film& film, const ToneOptions& tone = {});
 
 }  // namespace mms::renderer

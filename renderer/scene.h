@@ -48,14 +48,14 @@ struct Object {
   Transform transform;  ///< object space to world; the shape is in world space already
   int surface = 0;      ///< index into SceneData::surfaces
   int volume = -1;      ///< index into SceneData::volumes, or none
-  bool test = false;    ///< the object under test
+  bool test = false;    ///< an object under test
 };
 
 struct Camera {
   Vec3d position{0, 0, 5}, target, up{0, 1, 0};
   double fov = 0.6;     ///< full vertical angle of view, radians
   double aperture = 0;  ///< radius of the lens, m; 0 is a pinhole
-  double focus = 0;     ///< distance of the plane in focus, m
+  double focus = 5;     ///< distance of the plane in focus, above 0; m
 };
 
 /// Latitude-longitude picture around the scene: +y up, the middle column looks along -z.
@@ -85,7 +85,7 @@ struct SceneData {
 };
 
 /// Text of a built-in scene, or nothing.
-std::optional<std::string_view> builtin_scene_text(std::string_view name);
+std::optional<std::string> builtin_scene_text(std::string_view name);
 
 /// A scene from text; `origin` names it in messages, relative files are looked up in `folder`.
 Result<SceneData> parse_scene(const vm::Program& program, const SceneSource& source,

@@ -1,33 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scene files. Every key is known, every value has its type and range checked, and every message
 // names the place: `file: objects[2].material`. docs/scene.md is the manual of this file.
-#include <nlohmann/json.hpp>
-
+#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <initializer_list>
 #include <limits>
 #include <span>
 #include <sstream>
 
-#include <fmt/format.h>
-
 #include "base/hash.h"
 #include "base/warp.h"
 #include "lang/diagnostics.h"
-#include "renderer/scene.h"
+#include "renderer/scene_node.h"
 
 namespace mms::renderer {
-namespace {
-
-using Json = nlohmann::json;
-using vm::DescriptorForm;
-
-/// A mistake in the scene, on its way to `parse_scene`; it never leaves this file.
-struct Mistake {
-  Error error;
-};
 
 std::string join(const std::vector<std::string>& words) {
   std::string s;
@@ -35,7 +22,6 @@ std::string join(const std::vector<std::string>& words) {
   return s;
 }
 
-/// A hint for an unknown word: the nearest of what could stand there, and all of it.
 std::string hint_for(const std::string& word, const std::vector<std::string>& candidates) {
   if (candidates.empty()) return "there is none";
   const std::string near = lang::nearest(word, candidates);
@@ -43,95 +29,9 @@ std::string hint_for(const std::string& word, const std::vector<std::string>& ca
   return near.empty() ? all : fmt::format("did you mean `{}`? {}", near, all);
 }
 
-/// A JSON value and where it stands.
-class Node {
- public:
-  Node(const Json& json, std::string file, std::string path)
-      : json_(&json), file_(std::move(file)), path_(std::move(path)) {}
+namespace {
 
-  [[noreturn]] void fail(std::string what, std::string hint = {}) const {
-    throw Mistake{{path_.empty() ? file_ : file_ + ": " + path_, std::move(what), std::move(hint)}};
-  }
-
-  /// Checks that this is an object with no other keys than `keys`.
-  void keys(std::initializer_list<const char*> keys) const {
-    if (!json_->is_object()) fail(fmt::format("expected an object {{...}}, found {}", kind()));
-    const std::vector<std::string> known(keys.begin(), keys.end());
-    for (const auto& [key, value] : json_->items())
-      if (std::find(known.begin(), known.end(), key) == known.end())
-        member(key).fail(fmt::format("unknown key `{}`", key), hint_for(key, known));
-  }
-
-  bool has(const char* key) const { return json_->is_object() && json_->contains(key); }
-  Node operator[](const char* key) const {
-    if (!has(key)) fail(fmt::format("missing key `{}`", key));
-    return member(key);
-  }
-  std::vector<std::pair<std::string, Node>> members() const {
-    if (!json_->is_object()) fail(fmt::format("expected an object {{...}}, found {}", kind()));
-    std::vector<std::pair<std::string, Node>> r;
-    for (const auto& [key, value] : json_->items()) r.emplace_back(key, member(key));
-    return r;
-  }
-  std::vector<Node> elements() const {
-    if (!json_->is_array()) fail(fmt::format("expected an array [...], found {}", kind()));
-    std::vector<Node> r;
-    for (std::size_t i = 0; i < json_->size(); ++i)
-      r.emplace_back((*json_)[i], file_, fmt::format("{}[{}]", path_, i));
-    return r;
-  }
-
-  double number(double low = -1e9, double high = 1e9) const {
-    if (!json_->is_number()) fail(fmt::format("expected a number, found {}", kind()));
-    const double x = json_->get<double>();
-    if (!(x >= low && x <= high))
-      fail(fmt::format("{} is out of range: it must lie in [{}, {}]", x, low, high));
-    return x;
-  }
-  double number_or(const char* key, double otherwise, double low, double high) const {
-    return has(key) ? (*this)[key].number(low, high) : otherwise;
-  }
-  bool logic() const {
-    if (!json_->is_boolean()) fail(fmt::format("expected true or false, found {}", kind()));
-    return json_->get<bool>();
-  }
-  std::string text() const {
-    if (!json_->is_string()) fail(fmt::format("expected a string, found {}", kind()));
-    return json_->get<std::string>();
-  }
-  Vec3d vec3(double low = -1e9, double high = 1e9) const {
-    const std::vector<Node> e = elements();
-    if (e.size() != 3) fail(fmt::format("expected 3 numbers, found {}", e.size()));
-    return {e[0].number(low, high), e[1].number(low, high), e[2].number(low, high)};
-  }
-  Vec3d direction() const {
-    const Vec3d v = vec3();
-    if (!(length(v) > 1e-12)) fail("a direction must not be zero");
-    return v;
-  }
-  /// One number for grey, or linear red, green and blue.
-  Rgb rgb(double high) const {
-    if (json_->is_number()) {
-      const double x = number(0, high);
-      return {x, x, x};
-    }
-    const Vec3d v = vec3(0, high);
-    return {v.x, v.y, v.z};
-  }
-  const std::string& file() const { return file_; }
-
- private:
-  Node member(const std::string& key) const {
-    return {(*json_)[key], file_, path_.empty() ? key : path_ + "." + key};
-  }
-  std::string kind() const {
-    return json_->is_string() ? "the string \"" + json_->get<std::string>() + "\""
-                              : std::string(json_->type_name());
-  }
-
-  const Json* json_;
-  std::string file_, path_;
-};
+using vm::DescriptorForm;
 
 constexpr double kDegree = kPi<double> / 180;
 
@@ -191,7 +91,7 @@ class Parser {
         n.fail("`scale` and `rotate` belong to an environment with `image`");
       return;
     }
-    Result<EnvironmentImage> image = load_environment(path_of(n["image"]));
+    Result<EnvironmentImage> image = load_environment(in_folder(n["image"].text(), folder_));
     if (!image) n["image"].fail(image.error().what, image.error().hint);
     e.image = std::move(*image);
     const double scale = n.number_or("scale", 1, 0, 1e9);
@@ -211,50 +111,29 @@ class Parser {
   }
 
   void object(const Node& n) {
-    n.keys({"name", "sphere", "quad", "disc", "mesh", "translate", "rotate", "scale", "surface",
-            "volume", "test"});
+    std::vector<std::string> keys = shape_keys();
+    for (const char* key : {"name", "translate", "rotate", "scale", "surface", "volume", "test"})
+      keys.emplace_back(key);
+    n.keys(keys);
     Object o;
     if (n.has("name")) o.name = n["name"].text();
     if (n.has("translate")) o.transform.move = n["translate"].vec3();
     if (n.has("rotate")) o.transform.axes = euler(n["rotate"].vec3());
     o.transform.scale = n.number_or("scale", 1, 1e-9, 1e9);
-    o.test = n.has("test") && n["test"].logic();
-    o.shape = shape(n, o.transform);
+    o.test = n.has("test") && (n["test"].is_number() || n["test"].logic());
+    if (o.test) turn(o.transform);
+    o.shape = parse_shape(n, o.transform, folder_);
     bind(n, o);
-    if (o.volume >= 0 &&
-        (std::holds_alternative<Quad>(o.shape) || std::holds_alternative<Disc>(o.shape)))
-      n.fail("a volume needs a closed object", "a sphere, or a closed mesh");
+    if (o.volume >= 0 && open(o.shape))
+      n.fail("a volume needs a closed object", "a sphere, a box, or a closed mesh");
     data_.objects.push_back(std::move(o));
   }
 
-  Shape shape(const Node& n, Transform& transform) {
-    const int count = n.has("sphere") + n.has("quad") + n.has("disc") + n.has("mesh");
-    if (count != 1) n.fail("an object has one of `sphere`, `quad`, `disc` and `mesh`");
-    const Transform& t = transform;
-    if (n.has("sphere")) {
-      const Node s = n["sphere"];
-      s.keys({"center", "radius"});
-      const Vec3d centre = s.has("center") ? s["center"].vec3() : Vec3d{};
-      return Sphere{t.point(centre), s.number_or("radius", 1, 1e-9, 1e9) * t.scale, t.axes};
-    }
-    if (n.has("quad")) {
-      const Node s = n["quad"];
-      s.keys({"corner", "u", "v"});
-      const Vec3d u = s["u"].direction(), v = s["v"].direction();
-      if (!(length(cross(u, v)) > 1e-12)) s.fail("`u` and `v` are parallel");
-      return Quad{t.point(s["corner"].vec3()), t.direction(u) * t.scale, t.direction(v) * t.scale};
-    }
-    if (n.has("disc")) {
-      const Node s = n["disc"];
-      s.keys({"center", "normal", "radius"});
-      const Vec3d centre = s.has("center") ? s["center"].vec3() : Vec3d{};
-      const Vec3d normal = s.has("normal") ? s["normal"].direction() : Vec3d{0, 1, 0};
-      return Disc{t.point(centre), Frame<double>::around(normalize(t.direction(normal))),
-                  s.number_or("radius", 1, 1e-9, 1e9) * t.scale};
-    }
-    Result<Mesh> mesh = load_mesh(path_of(n["mesh"]), t);
-    if (!mesh) n["mesh"].fail(mesh.error().what, mesh.error().hint);
-    return std::move(*mesh);
+  /// As `SceneSource::turn` asks.
+  void turn(Transform& t) const {
+    const double c = std::cos(source_.turn), s = std::sin(source_.turn);
+    for (Vec3d* axis : {&t.axes.s, &t.axes.t, &t.axes.n})
+      *axis = {c * axis->x + s * axis->z, axis->y, c * axis->z - s * axis->x};
   }
 
   /// Finds the descriptors of an object: what the caller asked for, what the scene says, or the
@@ -265,10 +144,12 @@ class Parser {
     if (o.test) {
       if (!source_.surface.empty()) surface = source_.surface;
       if (!source_.volume.empty()) volume = source_.volume;
-      if (surface.empty()) surface = only_surface(n, volume);
+      const bool counted = n["test"].is_number();
+      if (surface.empty()) surface = counted ? first_surface(n, volume) : only_surface(n, volume);
+      if (counted) surface = counted_from(surface, int(n["test"].number(0, 1e6)));
       if (volume.empty() && program_.find(DescriptorForm::Volume, surface)) volume = surface;
-      data_.test_surface = surface;
-      data_.test_volume = volume;
+      if (data_.test_surface.empty()) data_.test_surface = surface;
+      if (data_.test_volume.empty()) data_.test_volume = volume;
     }
     const bool asked = o.test && !source_.surface.empty();
     if (surface.empty() && volume.empty())
@@ -283,8 +164,22 @@ class Parser {
     o.volume = int(data_.volumes.size()) - 1;
   }
 
+  /// Of a sheet of materials: the script's first surface.
+  std::string first_surface(const Node& n, std::string& volume) const {
+    const std::vector<std::string> surfaces = names(DescriptorForm::Surface);
+    return surfaces.empty() ? only_surface(n, volume) : surfaces[0];
+  }
+
+  /// The surface that stands `count` places after `surface` in the script, round and round.
+  std::string counted_from(const std::string& surface, int count) const {
+    const std::vector<std::string> all = names(DescriptorForm::Surface);
+    const auto at = std::find(all.begin(), all.end(), surface);
+    return at == all.end() ? surface
+                           : all[(std::size_t(at - all.begin()) + std::size_t(count)) % all.size()];
+  }
+
   /// What an unbound test object wears: the program's only surface; nothing if it has volumes only.
-  std::string only_surface(const Node& n, std::string& volume) {
+  std::string only_surface(const Node& n, std::string& volume) const {
     const std::vector<std::string> surfaces = names(DescriptorForm::Surface);
     if (surfaces.size() == 1) return surfaces[0];
     if (surfaces.empty()) {
@@ -340,11 +235,6 @@ class Parser {
     for (const vm::Descriptor& d : program_.descriptors)
       if (d.form == form) r.push_back(d.name);
     return r;
-  }
-
-  std::string path_of(const Node& n) const {
-    const std::filesystem::path p = n.text();
-    return (p.is_absolute() || folder_.empty() ? p : std::filesystem::path(folder_) / p).string();
   }
 
   const vm::Program& program_;
@@ -418,7 +308,7 @@ Result<Scene> load_scene(const vm::Program& program, const SceneSource& source) 
   }
   Result<SceneData> data = parse_scene(program, source, text, origin, folder);
   if (!data) return data.error();
-  data->hash = hash_of(*data, text);
+  data->hash = hash_combine(hash_of(*data, text), std::bit_cast<std::uint64_t>(source.turn));
   return Scene(std::make_shared<const SceneData>(std::move(*data)));
 }
 

@@ -13,6 +13,8 @@ constexpr double kFloatEpsilon = 0x1p-24;  // half a unit in the last place of 1
 
 double largest(Vec3d v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
+double& component(Vec3d& v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
+
 void keep(Roots& r, double t, double t_min, double t_max) {
   if (t > t_min && t < t_max) r.t[r.count++] = t;
 }
@@ -78,6 +80,26 @@ Roots intersect(const Disc& s, Vec3d o, Vec3d d, double t_min, double t_max) {
   return r;
 }
 
+Roots intersect(const Box& s, Vec3d o, Vec3d d, double t_min, double t_max) {
+  const Vec3d lo = s.axes.to_local(o - s.centre), ld = s.axes.to_local(d);
+  double in = -1e300, out = 1e300;  // where the ray enters the last slab, and leaves the first
+  for (int k = 0; k < 3; ++k) {
+    const double half = s.half[k];
+    if (ld[k] == 0) {
+      if (std::abs(lo[k]) > half) return {};
+      continue;
+    }
+    const double a = (-half - lo[k]) / ld[k], b = (half - lo[k]) / ld[k];
+    in = std::max(in, std::min(a, b));
+    out = std::min(out, std::max(a, b));
+  }
+  Roots r;
+  if (!(in < out)) return r;
+  keep(r, in, t_min, t_max);
+  keep(r, out, t_min, t_max);
+  return r;
+}
+
 SurfacePoint surface_at(const Sphere& s, Vec3d p) {
   SurfacePoint r;
   const Vec3d n = normalize(p - s.centre);
@@ -123,6 +145,28 @@ SurfacePoint surface_at(const Disc& s, Vec3d p) {
   r.error = rounding_error(r.position);
   set_flat(r, s.axes.n);
   set_tangents(r, s.axes.s * (2 * s.radius), s.axes.t * (2 * s.radius));
+  return r;
+}
+
+SurfacePoint surface_at(const Box& s, Vec3d p) {
+  SurfacePoint r;
+  Vec3d l = s.axes.to_local(p - s.centre);
+  int face = 0;
+  for (int k = 1; k < 3; ++k)
+    if (std::abs(l[k]) * s.half[face] > std::abs(l[face]) * s.half[k]) face = k;
+  const double side = l[face] < 0 ? -1 : 1;
+  component(l, face) = side * s.half[face];
+  r.position = s.centre + s.axes.to_world(l);
+  r.error = rounding_error(r.position);
+  Vec3d n, u, v;  // u x v = n
+  component(n, face) = side;
+  if (face == 0) u.z = -side, v.y = 1;
+  if (face == 1) u.x = 1, v.z = -side;
+  if (face == 2) u.x = side, v.y = 1;
+  const double half_u = std::abs(dot(u, s.half)), half_v = std::abs(dot(v, s.half));
+  r.uv = {0.5 + 0.5 * dot(u, l) / half_u, 0.5 + 0.5 * dot(v, l) / half_v};
+  set_flat(r, s.axes.to_world(n));
+  set_tangents(r, s.axes.to_world(u) * (2 * half_u), s.axes.to_world(v) * (2 * half_v));
   return r;
 }
 
@@ -194,6 +238,9 @@ struct AreaOf {
   double operator()(const Sphere& s) const { return 4 * kPi<double> * s.radius * s.radius; }
   double operator()(const Quad& s) const { return length(cross(s.edge_u, s.edge_v)); }
   double operator()(const Disc& s) const { return kPi<double> * s.radius * s.radius; }
+  double operator()(const Box& s) const {
+    return 8 * (s.half.x * s.half.y + s.half.y * s.half.z + s.half.z * s.half.x);
+  }
   double operator()(const Mesh& m) const {
     double sum = 0;
     for (std::uint32_t i = 0; i < m.triangles.size(); ++i) sum += triangle_area(m, i);
@@ -208,6 +255,14 @@ struct BoundsOf {
     Bounds b;
     for (double u : {0.0, 1.0})
       for (double v : {0.0, 1.0}) b.add(s.corner + s.edge_u * u + s.edge_v * v);
+    return b;
+  }
+  Bounds operator()(const Box& s) const {
+    Bounds b;
+    for (int corner = 0; corner < 8; ++corner)
+      b.add(s.centre +
+            s.axes.to_world({corner & 1 ? s.half.x : -s.half.x, corner & 2 ? s.half.y : -s.half.y,
+                             corner & 4 ? s.half.z : -s.half.z}));
     return b;
   }
   Bounds operator()(const Mesh& m) const {
@@ -240,6 +295,10 @@ bool meets(Vec3d p, Vec3d d, Vec3d a, Vec3d b, Vec3d c) {
 
 bool contains(const Shape& shape, Vec3d p) {
   if (const Sphere* s = std::get_if<Sphere>(&shape)) return length(p - s->centre) < s->radius;
+  if (const Box* s = std::get_if<Box>(&shape)) {
+    const Vec3d l = s->axes.to_local(p - s->centre);
+    return std::abs(l.x) < s->half.x && std::abs(l.y) < s->half.y && std::abs(l.z) < s->half.z;
+  }
   const Mesh* m = std::get_if<Mesh>(&shape);
   if (!m) return false;
   const Vec3d d = normalize(Vec3d{0.36, 0.83, 0.42});  // unlikely to run along an edge
@@ -248,6 +307,25 @@ bool contains(const Shape& shape, Vec3d p) {
     inside ^= meets(p, d, Vec3d(m->positions[a]), Vec3d(m->positions[b]), Vec3d(m->positions[c]));
   return inside;
 }
+
+namespace {
+
+/// A face drawn by its area: what is left of `u` is spent on the place within it.
+SurfacePoint sample_box(const Box& s, double u, double v) {
+  const double areas[3] = {s.half.y * s.half.z, s.half.z * s.half.x, s.half.x * s.half.y};
+  double x = u * 2 * (areas[0] + areas[1] + areas[2]);
+  int face = 0;
+  while (face < 2 && x >= 2 * areas[face]) x -= 2 * areas[face++];
+  const bool high = x >= areas[face];
+  const double rest = std::clamp(x / areas[face] - (high ? 1 : 0), 0.0, 1.0);
+  Vec3d l;
+  component(l, face) = high ? s.half[face] : -s.half[face];
+  component(l, (face + 1) % 3) = (2 * rest - 1) * s.half[(face + 1) % 3];
+  component(l, (face + 2) % 3) = (2 * v - 1) * s.half[(face + 2) % 3];
+  return surface_at(s, s.centre + s.axes.to_world(l));
+}
+
+}  // namespace
 
 SurfacePoint sample_surface(const Shape& shape, double u, double v) {
   if (const Sphere* s = std::get_if<Sphere>(&shape))
@@ -258,6 +336,7 @@ SurfacePoint sample_surface(const Shape& shape, double u, double v) {
     const Vec3d p = square_to_disc(u, v) * d->radius;
     return surface_at(*d, d->centre + d->axes.s * p.x + d->axes.t * p.y);
   }
+  if (const Box* b = std::get_if<Box>(&shape)) return sample_box(*b, u, v);
   const Mesh& m = std::get<Mesh>(shape);
   const double n = double(m.triangles.size()) * u;
   const auto triangle = std::min(std::uint32_t(n), std::uint32_t(m.triangles.size() - 1));

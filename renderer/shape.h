@@ -3,7 +3,7 @@
 
 /// \file
 /// The shapes of a scene, in world space: where a ray meets them, what the surface is like there,
-/// and how to draw points of them. Spheres, quads and discs are met analytically in double
+/// and how to draw points of them. Spheres, quads, discs and boxes are met analytically in double
 /// precision, so they show no facets; meshes are met by Embree.
 
 #include <array>
@@ -43,13 +43,24 @@ struct Disc {
   Frame<double> axes;  ///< normal n
   double radius = 1;
 };
+/// `u` and `v` run over each face from 0 to 1; on the sides v points along +y of the axes.
+struct Box {
+  Vec3d centre;
+  Frame<double> axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< where its own x, y, z point
+  Vec3d half{1, 1, 1};                                  ///< half of each edge
+};
 struct Mesh {
   std::vector<Vec3f> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Vec3f> normals;             ///< one a vertex, or none
   std::vector<std::array<float, 2>> uvs;  ///< one a vertex, or none
 };
-using Shape = std::variant<Sphere, Quad, Disc, Mesh>;
+using Shape = std::variant<Sphere, Quad, Disc, Box, Mesh>;
+
+/// Whether a shape that is no mesh has an inside.
+inline bool open(const Shape& s) {
+  return std::holds_alternative<Quad>(s) || std::holds_alternative<Disc>(s);
+}
 
 /// A point of a surface. Vectors are unit unless stated; normals point outwards (to the side the
 /// winding shows), whatever side a ray comes from.
@@ -71,11 +82,13 @@ struct Roots {
 Roots intersect(const Sphere& s, Vec3d o, Vec3d d, double t_min, double t_max);
 Roots intersect(const Quad& s, Vec3d o, Vec3d d, double t_min, double t_max);
 Roots intersect(const Disc& s, Vec3d o, Vec3d d, double t_min, double t_max);
+Roots intersect(const Box& s, Vec3d o, Vec3d d, double t_min, double t_max);
 
 /// The surface at `p`, a point near it; for a mesh at barycentrics (u, v) of a triangle.
 SurfacePoint surface_at(const Sphere& s, Vec3d p);
 SurfacePoint surface_at(const Quad& s, Vec3d p);
 SurfacePoint surface_at(const Disc& s, Vec3d p);
+SurfacePoint surface_at(const Box& s, Vec3d p);
 SurfacePoint surface_at(const Mesh& s, std::uint32_t triangle, double u, double v);
 
 /// Area, m^2.

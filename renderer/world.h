@@ -7,7 +7,9 @@
 #include "renderer/accel.h"
 #include "renderer/camera.h"
 #include "renderer/lights.h"
+#include "renderer/majorants.h"
 #include "renderer/scripts.h"
+#include "renderer/switches.h"
 
 namespace mms::renderer {
 
@@ -47,7 +49,9 @@ struct World {
   bool plain = true;         ///< no volume and nothing semi-transparent: rays end where they hit
   std::uint64_t seed = 0;
   int max_depth = 0;
-  std::vector<double> majorants;  ///< of each object's volume, if it varies: Findings
+  std::vector<MajorantGrid> majorants;  ///< of each object's volume, if it varies: Findings
+  Estimator estimator = Estimator::Clustered;
+  Generator generator = Generator::Niederreiter;
 
   const Surface& surface_of_object(int object) const {
     return scene.surfaces[scene.objects[object].surface];

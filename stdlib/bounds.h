@@ -25,8 +25,18 @@ Function polar;
 
 Function perlin1, perlin2, perlin3, perlin4;
 Function perlin_gradient1, perlin_gradient2, perlin_gradient3, perlin_gradient4;
+Function perlin_of1, perlin_of2, perlin_of3, perlin_of4;
+Function perlin_gradient_of1, perlin_gradient_of2, perlin_gradient_of3, perlin_gradient_of4;
+Function valuenoise1, valuenoise2, valuenoise3, valuenoise4;
+Function valuenoise_of1, valuenoise_of2, valuenoise_of3, valuenoise_of4;
+Function valuenoise_gradient_of1, valuenoise_gradient_of2, valuenoise_gradient_of3,
+    valuenoise_gradient_of4;
+Function simplex1, simplex2, simplex3, simplex4;
+Function simplex_of1, simplex_of2, simplex_of3, simplex_of4;
 Function perlin_derivative1, perlin_derivative2, perlin_derivative3, perlin_derivative4;
 Function hash1, hash2, hash3, hash4, cells1, cells2, cells3, cells4;
+Function worley_ways1, worley_ways2, worley_ways3, worley_ways4;
+Function worley_border1, worley_border2, worley_border3, worley_border4;
 Function worley2, worley3, worley_pair2, worley_pair3;
 
 Function planck, sellmeier, cauchy, fresnel, fresnel_conductor;

@@ -1,36 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Enclosures of noise. Over a box in few cells, gradient noise is enclosed cell by cell: once by
-// the interpolation of its corners over intervals, once by its value at the centre and its
-// gradient over the box (the mean value theorem), whichever is narrower at either end. Distances to
-// random points change no faster than the point moves.
-#include <algorithm>
-#include <cmath>
-
+// Enclosures of noise. Over a box in few cells, gradient and value noise are enclosed cell by cell:
+// once by the interpolation of their corners over intervals, once by the value at the centre and
+// the gradient over the box (the mean value theorem), whichever is narrower at either end. Simplex
+// noise is enclosed by its value at the centre and its steepest slope.
 #include "stdlib/bounds.h"
-#include "stdlib/bounds_math.h"
+#include "stdlib/bounds_lattice.h"
 
 #define MMS_ISA lattice_noise
-#include "stdlib/cells.h"
+#include "stdlib/noise.h"
+#include "stdlib/simplex.h"
 
 namespace mms::stdlib::bounds {
 
-using vm::Interval;
-
 namespace {
 
-using lattice_noise::Bits;
-
-/// Cells that are looked at one by one; a box over more of them gets the range.
-constexpr double kMostCells = 64;
+using lattice_noise::Bits, lattice_noise::Endless, lattice_noise::Levels, lattice_noise::Slopes;
 
 /// What the float kernels may miss the exact value by, absolutely: offsets and weights in a cell
 /// are good to a few 2^-24, differences of corners amplify that less than 100 times. Tests measure
 /// a tenth of these.
-constexpr double kValueError = 0x1p-17, kGradientError = 0x1p-14, kDistanceError = 0x1p-18;
+constexpr double kValueError = 0x1p-17, kGradientError = 0x1p-14;
 
-struct Range {
-  double lo, hi;
-};
 Range operator+(Range a, Range b) { return {a.lo + b.lo, a.hi + b.hi}; }
 Range operator-(Range a, Range b) { return {a.lo - b.hi, a.hi - b.lo}; }
 Range scaled(Range a, double s) {
@@ -64,27 +54,27 @@ struct RangeJet {
 /// Part of one cell.
 template <int N>
 struct CellBox {
-  Bits near[N];
+  Bits side[N][2];
   Range offset[N], w[N], dw[N];
 };
 
-/// As lattice_noise::interpolate, over a box.
-template <int K, int N>
+/// As lattice_noise::interpolate, over a box. A corner's value is linear in the offset.
+template <class Corners, int K, int N>
 RangeJet<N> interpolate(const CellBox<N>& cell, Bits h, Range (&d)[N]) {
   RangeJet<N> r;
   if constexpr (K == N) {
-    double g[N];
-    lattice_noise::corner_vector(lattice_noise::finish(h), g);
-    r.value = {0, 0};
+    const double at_corner[N] = {};
+    const auto corner = Corners::corner(lattice_noise::finish(h), at_corner);
+    r.value = {corner.value, corner.value};
     for (int k = 0; k < N; ++k) {
-      r.value = r.value + scaled(d[k], g[k]);
-      r.gradient[k] = {g[k], g[k]};
+      r.value = r.value + scaled(d[k], corner.gradient[k]);
+      r.gradient[k] = {corner.gradient[k], corner.gradient[k]};
     }
   } else {
     d[K] = cell.offset[K];
-    const RangeJet<N> a = interpolate<K + 1>(cell, lattice_noise::mix(h, cell.near[K]), d);
+    const auto a = interpolate<Corners, K + 1>(cell, lattice_noise::mix(h, cell.side[K][0]), d);
     d[K] = {cell.offset[K].lo - 1, cell.offset[K].hi - 1};
-    const RangeJet<N> b = interpolate<K + 1>(cell, lattice_noise::mix(h, cell.near[K] + 1), d);
+    const auto b = interpolate<Corners, K + 1>(cell, lattice_noise::mix(h, cell.side[K][1]), d);
     r.value = blended(a.value, b.value, cell.w[K]);
     for (int k = 0; k < N; ++k) r.gradient[k] = blended(a.gradient[k], b.gradient[k], cell.w[K]);
     r.gradient[K] = r.gradient[K] + times(b.value - a.value, cell.dw[K]);
@@ -92,17 +82,19 @@ RangeJet<N> interpolate(const CellBox<N>& cell, Bits h, Range (&d)[N]) {
   return r;
 }
 
-template <int N>
-RangeJet<N> over_cell(const double (&floors)[N], const Range (&offset)[N]) {
+template <class Corners, int N, class Where>
+RangeJet<N> over_cell(const double (&floors)[N], const Range (&offset)[N], const Where& where) {
+  const auto sides = lattice_noise::cell_at(floors, where);
   CellBox<N> cell;
   for (int k = 0; k < N; ++k) {
-    cell.near[k] = lattice_noise::lattice(floors[k]);
+    cell.side[k][0] = sides.side[k][0];
+    cell.side[k][1] = sides.side[k][1];
     cell.offset[k] = offset[k];
     cell.w[k] = weights(offset[k]);
     cell.dw[k] = weight_slopes(offset[k]);
   }
   Range d[N];
-  RangeJet<N> r = interpolate<0>(cell, lattice_noise::kSeed, d);
+  RangeJet<N> r = interpolate<Corners, 0>(cell, where.start(), d);
   // The mean value theorem.
   for (int k = 0; k < N; ++k) {
     const double c = 0.5 * (offset[k].lo + offset[k].hi);
@@ -110,7 +102,7 @@ RangeJet<N> over_cell(const double (&floors)[N], const Range (&offset)[N]) {
     cell.w[k] = {weight(c), weight(c)};
     cell.dw[k] = {0, 0};
   }
-  Range mean = interpolate<0>(cell, lattice_noise::kSeed, d).value;
+  Range mean = interpolate<Corners, 0>(cell, where.start(), d).value;
   for (int k = 0; k < N; ++k) {
     const double half = 0.5 * (offset[k].hi - offset[k].lo);
     const double steepest = std::max(std::fabs(r.gradient[k].lo), std::fabs(r.gradient[k].hi));
@@ -120,66 +112,94 @@ RangeJet<N> over_cell(const double (&floors)[N], const Range (&offset)[N]) {
   return r;
 }
 
-bool finite(const Interval* in, int n) {
-  for (int k = 0; k < n; ++k)
-    if (in[k].contains_infinity()) return false;
-  return true;
-}
-
-/// Calls `f(floors, offset ranges)` for each cell of the box; false where there are too many, or
-/// beyond the lattice.
+/// Calls `f` with where the noise is, from the seed and the periods that stand behind the N
+/// coordinates; not where they are not certain.
 template <int N, class F>
-bool each_cell(const Interval* in, F f) {
-  double first[N], last[N], at[N];
-  double cells = 1;
-  for (int k = 0; k < N; ++k) {
-    if (!(in[k].magnitude() < 0x1p30)) return false;
-    at[k] = first[k] = std::floor(in[k].lo);
-    last[k] = std::floor(in[k].hi);
-    cells *= last[k] - first[k] + 1;
-  }
-  if (cells > kMostCells) return false;
-  for (;;) {
-    Range offset[N];
-    for (int k = 0; k < N; ++k)
-      offset[k] = {std::max(in[k].lo - at[k], 0.0), std::min(in[k].hi - at[k], 1.0)};
-    f(at, offset);
-    int k = 0;
-    while (k < N && ++at[k] > last[k]) {
-      at[k] = first[k];
-      ++k;
-    }
-    if (k == N) return true;
-  }
+void with_tiles(const Interval* in, int step, F f) {
+  double period[N];
+  for (int k = 0; k <= N; ++k)
+    if (!in[N + k].is_point()) return;
+  for (int k = 0; k < N; ++k) period[k] = in[N + 1 + k].lo;
+  f(lattice_noise::tiled(static_cast<std::int32_t>(in[N].lo), period, step));
 }
 
-template <int N>
-void perlin(const Interval* in, Interval* out) {
+template <class Corners, int N, class Where>
+void interpolated(const Interval* in, Interval* out, const Where& where) {
   Interval r = Interval::empty();
   const auto add = [&](const double(&floors)[N], const Range(&offset)[N]) {
-    const Range v = over_cell<N>(floors, offset).value;
+    const Range v = over_cell<Corners>(floors, offset, where).value;
     r = join(r, {v.lo, v.hi, false});
   };
-  out[0].nan = !finite(in, N);
   if (!each_cell<N>(in, add)) return;
-  constexpr double scale = lattice_noise::kPerlinScale<double, N>;
-  out[0] = {r.lo * scale - kValueError, r.hi * scale + kValueError, false};
+  constexpr double scale = Corners::template kScale<double, N>;
+  out[0] = {r.lo * scale - kValueError, r.hi * scale + kValueError, out[0].nan};
 }
 
-template <int N>
-void perlin_gradient(const Interval* in, Interval* out) {
+template <class Corners, int N, class Where>
+void interpolated_gradient(const Interval* in, Interval* out, const Where& where) {
   Interval r[N];
   std::fill(r, r + N, Interval::empty());
   const auto add = [&](const double(&floors)[N], const Range(&offset)[N]) {
-    const RangeJet<N> j = over_cell<N>(floors, offset);
+    const RangeJet<N> j = over_cell<Corners>(floors, offset, where);
     for (int k = 0; k < N; ++k) r[k] = join(r[k], {j.gradient[k].lo, j.gradient[k].hi, false});
   };
-  const bool known = each_cell<N>(in, add);
-  constexpr double scale = lattice_noise::kPerlinScale<double, N>;
+  if (!each_cell<N>(in, add)) return;
+  constexpr double scale = Corners::template kScale<double, N>;
+  for (int k = 0; k < N; ++k)
+    out[k] = {r[k].lo * scale - kGradientError, r[k].hi * scale + kGradientError, out[k].nan};
+}
+
+template <int N, class Where>
+void simplex(const Interval* in, Interval* out, const Where& where) {
+  double centre[N], radius2 = 0;
   for (int k = 0; k < N; ++k) {
-    out[k].nan = !finite(in, N);
-    if (known) out[k] = {r[k].lo * scale - kGradientError, r[k].hi * scale + kGradientError, false};
+    if (!(in[k].magnitude() < 0x1p28)) return;
+    centre[k] = 0.5 * (in[k].lo + in[k].hi);
+    const double half = 0.5 * (in[k].hi - in[k].lo);
+    radius2 += half * half;
   }
+  const double value = lattice_noise::Simplex::jet(centre, where).value;
+  const double most = lattice_noise::kSimplexSlope<N> * std::sqrt(radius2) + kValueError;
+  out[0] = {value - most, value + most, out[0].nan};
+}
+
+/// Only an infinite coordinate makes noise a NaN.
+template <int N>
+void set_nan(const Interval* in, Interval* out, int results) {
+  for (int k = 0; k < results; ++k) out[k].nan = !finite(in, N);
+}
+
+template <class Corners, int N>
+void value(const Interval* in, Interval* out) {
+  set_nan<N>(in, out, 1);
+  interpolated<Corners, N>(in, out, Endless{});
+}
+template <class Corners, int N>
+void value_of(const Interval* in, Interval* out) {
+  set_nan<N>(in, out, 1);
+  with_tiles<N>(in, 1, [&](const auto& where) { interpolated<Corners, N>(in, out, where); });
+}
+template <class Corners, int N>
+void gradient(const Interval* in, Interval* out) {
+  set_nan<N>(in, out, N);
+  interpolated_gradient<Corners, N>(in, out, Endless{});
+}
+template <class Corners, int N>
+void gradient_of(const Interval* in, Interval* out) {
+  set_nan<N>(in, out, N);
+  with_tiles<N>(in, 1,
+                [&](const auto& where) { interpolated_gradient<Corners, N>(in, out, where); });
+}
+template <int N>
+void simplex(const Interval* in, Interval* out) {
+  set_nan<N>(in, out, 1);
+  simplex<N>(in, out, Endless{});
+}
+template <int N>
+void simplex_of(const Interval* in, Interval* out) {
+  set_nan<N>(in, out, 1);
+  with_tiles<N>(in, lattice_noise::Simplex::kStep<N>,
+                [&](const auto& where) { simplex<N>(in, out, where); });
 }
 
 /// The largest magnitudes of a weight's derivatives, the weight's own first; 0 from the sixth on.
@@ -220,98 +240,48 @@ void perlin_derivative(const Interval* in, Interval* out) {
   out[0] = {-most, most, !finite(in, N)};
 }
 
-template <int N, class Value>
-void cells(const Interval* in, Interval* out, Value value) {
-  Interval r = Interval::empty();
-  out[0].nan = false;
-  for (int k = 0; k < N; ++k)
-    if (in[k].nan) return;  // which is in some cell
-  if (each_cell<N>(in, [&](const double(&floors)[N], const Range(&)[N]) {
-        r = join(r, Interval::point(value(floors)));
-      }))
-    out[0] = r;
-}
-
-/// White noise is known at points only.
-template <int N, class Value>
-void hash(const Interval* in, Interval* out, Value value) {
-  double x[N];
-  out[0].nan = false;
-  for (int k = 0; k < N; ++k) {
-    if (!in[k].is_point()) return;
-    x[k] = in[k].lo;
-  }
-  out[0] = Interval::point(value(x));
-}
-
-/// Distances found at the centre move by at most the radius of the box. What is found is the
-/// nearest point as long as that is within 1, the width of a cell; else it may be farther.
-template <int N>
-void worley(const Interval* in, Interval* out, int distances) {
-  // A point in the cell itself, and one in the next cell on the nearer side.
-  const double farthest[] = {std::sqrt(double(N)), std::sqrt(1.25 + N)};
-  double centre[N], radius2 = 0;
-  bool known = finite(in, N), beyond = false;
-  for (int k = 0; k < N; ++k) {
-    known &= !in[k].nan;
-    beyond |= !(in[k].magnitude() < 0x1p30);
-    centre[k] = 0.5 * (in[k].lo + in[k].hi);
-    const double half = 0.5 * (in[k].hi - in[k].lo);
-    radius2 += half * half;
-  }
-  for (int k = 0; k < distances; ++k) out[k].nan = false;
-  if (!known) return;  // infinite where a coordinate is not a number
-  for (int k = 0; k < distances; ++k) out[k] = {0, farthest[k] + kDistanceError, false};
-  if (beyond || radius2 > N) return;
-  const auto found = lattice_noise::nearest<double, N>(centre);
-  const double radius = std::sqrt(radius2),
-               at[] = {std::sqrt(found.first), std::sqrt(found.second)};
-  for (int k = 0; k < distances; ++k) {
-    out[k].lo = std::max(0.0, std::min(at[k], 1.0) - radius - kDistanceError);
-    if (at[k] + radius <= 1) out[k].hi = at[k] + radius + kDistanceError;
-  }
-}
-
 }  // namespace
 
-void perlin1(const Interval* in, Interval* out) { perlin<1>(in, out); }
-void perlin2(const Interval* in, Interval* out) { perlin<2>(in, out); }
-void perlin3(const Interval* in, Interval* out) { perlin<3>(in, out); }
-void perlin4(const Interval* in, Interval* out) { perlin<4>(in, out); }
-void perlin_gradient1(const Interval* in, Interval* out) { perlin_gradient<1>(in, out); }
-void perlin_gradient2(const Interval* in, Interval* out) { perlin_gradient<2>(in, out); }
-void perlin_gradient3(const Interval* in, Interval* out) { perlin_gradient<3>(in, out); }
-void perlin_gradient4(const Interval* in, Interval* out) { perlin_gradient<4>(in, out); }
+void perlin1(const Interval* in, Interval* out) { value<Slopes, 1>(in, out); }
+void perlin2(const Interval* in, Interval* out) { value<Slopes, 2>(in, out); }
+void perlin3(const Interval* in, Interval* out) { value<Slopes, 3>(in, out); }
+void perlin4(const Interval* in, Interval* out) { value<Slopes, 4>(in, out); }
+void perlin_gradient1(const Interval* in, Interval* out) { gradient<Slopes, 1>(in, out); }
+void perlin_gradient2(const Interval* in, Interval* out) { gradient<Slopes, 2>(in, out); }
+void perlin_gradient3(const Interval* in, Interval* out) { gradient<Slopes, 3>(in, out); }
+void perlin_gradient4(const Interval* in, Interval* out) { gradient<Slopes, 4>(in, out); }
+void perlin_of1(const Interval* in, Interval* out) { value_of<Slopes, 1>(in, out); }
+void perlin_of2(const Interval* in, Interval* out) { value_of<Slopes, 2>(in, out); }
+void perlin_of3(const Interval* in, Interval* out) { value_of<Slopes, 3>(in, out); }
+void perlin_of4(const Interval* in, Interval* out) { value_of<Slopes, 4>(in, out); }
+void perlin_gradient_of1(const Interval* in, Interval* out) { gradient_of<Slopes, 1>(in, out); }
+void perlin_gradient_of2(const Interval* in, Interval* out) { gradient_of<Slopes, 2>(in, out); }
+void perlin_gradient_of3(const Interval* in, Interval* out) { gradient_of<Slopes, 3>(in, out); }
+void perlin_gradient_of4(const Interval* in, Interval* out) { gradient_of<Slopes, 4>(in, out); }
+void valuenoise1(const Interval* in, Interval* out) { value<Levels, 1>(in, out); }
+void valuenoise2(const Interval* in, Interval* out) { value<Levels, 2>(in, out); }
+void valuenoise3(const Interval* in, Interval* out) { value<Levels, 3>(in, out); }
+void valuenoise4(const Interval* in, Interval* out) { value<Levels, 4>(in, out); }
+void valuenoise_of1(const Interval* in, Interval* out) { value_of<Levels, 1>(in, out); }
+void valuenoise_of2(const Interval* in, Interval* out) { value_of<Levels, 2>(in, out); }
+void valuenoise_of3(const Interval* in, Interval* out) { value_of<Levels, 3>(in, out); }
+void valuenoise_of4(const Interval* in, Interval* out) { value_of<Levels, 4>(in, out); }
+void valuenoise_gradient_of1(const Interval* in, Interval* out) { gradient_of<Levels, 1>(in, out); }
+void valuenoise_gradient_of2(const Interval* in, Interval* out) { gradient_of<Levels, 2>(in, out); }
+void valuenoise_gradient_of3(const Interval* in, Interval* out) { gradient_of<Levels, 3>(in, out); }
+void valuenoise_gradient_of4(const Interval* in, Interval* out) { gradient_of<Levels, 4>(in, out); }
+void simplex1(const Interval* in, Interval* out) { (simplex<1>)(in, out); }
+void simplex2(const Interval* in, Interval* out) { (simplex<2>)(in, out); }
+void simplex3(const Interval* in, Interval* out) { (simplex<3>)(in, out); }
+void simplex4(const Interval* in, Interval* out) { (simplex<4>)(in, out); }
+void simplex_of1(const Interval* in, Interval* out) { simplex_of<1>(in, out); }
+void simplex_of2(const Interval* in, Interval* out) { simplex_of<2>(in, out); }
+void simplex_of3(const Interval* in, Interval* out) { simplex_of<3>(in, out); }
+void simplex_of4(const Interval* in, Interval* out) { simplex_of<4>(in, out); }
 
 void perlin_derivative1(const Interval* in, Interval* out) { perlin_derivative<1>(in, out); }
 void perlin_derivative2(const Interval* in, Interval* out) { perlin_derivative<2>(in, out); }
 void perlin_derivative3(const Interval* in, Interval* out) { perlin_derivative<3>(in, out); }
 void perlin_derivative4(const Interval* in, Interval* out) { perlin_derivative<4>(in, out); }
-
-// A functor over one value type at N coordinates.
-#define MMS_AT(N, Functor, ...) \
-  [](const double(&x)[N]) { return lattice_noise::Functor<double>::eval(__VA_ARGS__); }
-void hash1(const Interval* in, Interval* out) { hash<1>(in, out, MMS_AT(1, Hash1, x[0])); }
-void hash2(const Interval* in, Interval* out) { hash<2>(in, out, MMS_AT(2, Hash2, x[0], x[1])); }
-void hash3(const Interval* in, Interval* out) {
-  hash<3>(in, out, MMS_AT(3, Hash3, x[0], x[1], x[2]));
-}
-void hash4(const Interval* in, Interval* out) {
-  hash<4>(in, out, MMS_AT(4, Hash4, x[0], x[1], x[2], x[3]));
-}
-void cells1(const Interval* in, Interval* out) { cells<1>(in, out, MMS_AT(1, Cells1, x[0])); }
-void cells2(const Interval* in, Interval* out) { cells<2>(in, out, MMS_AT(2, Cells2, x[0], x[1])); }
-void cells3(const Interval* in, Interval* out) {
-  cells<3>(in, out, MMS_AT(3, Cells3, x[0], x[1], x[2]));
-}
-void cells4(const Interval* in, Interval* out) {
-  cells<4>(in, out, MMS_AT(4, Cells4, x[0], x[1], x[2], x[3]));
-}
-#undef MMS_AT
-
-void worley2(const Interval* in, Interval* out) { worley<2>(in, out, 1); }
-void worley3(const Interval* in, Interval* out) { worley<3>(in, out, 1); }
-void worley_pair2(const Interval* in, Interval* out) { worley<2>(in, out, 2); }
-void worley_pair3(const Interval* in, Interval* out) { worley<3>(in, out, 2); }
 
 }  // namespace mms::stdlib::bounds

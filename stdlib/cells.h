@@ -5,7 +5,7 @@
 /// \file
 /// White noise, and noise from one random point in each cell (Worley 1996). Hashes as in noise.h.
 
-#include "stdlib/noise.h"
+#include "stdlib/lattice.h"
 
 namespace mms::stdlib::MMS_ISA {
 
@@ -61,6 +61,25 @@ template <class R>
 struct Cells4 {
   [[gnu::always_inline]] static R eval(R x, R y, R z, R t) {
     return unit<R>(cell_hash<R>(x, y, z, t));
+  }
+};
+
+/// White and cell noise with a seed, over the axes K...
+template <class R, class Axes>
+struct CellCalls;
+template <class R, std::size_t... K>
+struct CellCalls<R, std::index_sequence<K...>> {
+  static constexpr int N = sizeof...(K);
+  [[gnu::always_inline]] static R hash(Each<K, R>... p, std::int32_t seed) {
+    Bits h = start_of(seed) ^ Bits(N);
+    ((h = mix(h, bits_of(float(p)))), ...);
+    return unit<R>(finish(h));
+  }
+  [[gnu::always_inline]] static R cell(Each<K, R>... p, std::int32_t seed, Each<K, R>... period) {
+    const Tiled<R, N> where = tiled<R, N>(seed, {period...}, 1);
+    Bits h = where.start();
+    ((h = mix(h, lattice(where.wrapped(K, floor_of(p))))), ...);
+    return unit<R>(finish(h));
   }
 };
 

@@ -213,3 +213,17 @@ T diamond(generic T wavelength) = sellmeier(wavelength, 0.3306, 0.030625, 4.3356
 spectrum water_ior()
     nm = $wavelength * 1e9;
     return 1.313242 + (15.7834 + (1.1455e6 / nm - 4382.0) / nm) / nm;
+
+/// Metal under a transparent film `thickness` metres thin: its colours are those of interference.
+/// >>> coated_metal(2.5, 3.0, 250nm)
+material coated_metal(spectrum n, k, real thickness, spectrum film_ior = 1.5, real roughness = 0.0) =
+    film_conductor(n, k, film_ior, thickness, $wavelength, roughness);
+
+/// Smooth glass under a transparent film `thickness` metres thin, such as a lens' coating.
+/// >>> coated_glass(1.5, 100nm)
+material coated_glass(spectrum ior, real thickness, spectrum film_ior = 1.38) =
+    film_dielectric(ior, film_ior, thickness, $wavelength);
+
+/// Phase function of two Henyey-Greenstein lobes: `g1` with weight 1 - t, `g2` with weight t.
+/// >>> two_lobe(0.8, -0.3, 0.25)
+material two_lobe(real g1, g2, spectrum t) = mix(henyey_greenstein(g1), henyey_greenstein(g2), t);

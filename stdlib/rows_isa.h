@@ -14,6 +14,8 @@
 #include "stdlib/elementary_rows.h"
 #include "stdlib/noise_rows.h"
 #include "stdlib/physics_rows.h"
+#include "stdlib/seeded_rows.h"
+#include "stdlib/worley_rows.h"
 
 namespace mms::stdlib::MMS_ISA {
 
@@ -29,6 +31,6 @@ constexpr auto joined(const vm::Builtin (&... parts)[N]) {
 }
 
 inline constexpr auto kRows =
-    joined(kElementaryRows, kComplexRows, kNoiseRows, kCellsRows, kPhysicsRows);
+    joined(kElementaryRows, kComplexRows, kNoiseRows, kSeededRows, kCellsRows, kWorleyRows, kPhysicsRows);
 
 }  // namespace mms::stdlib::MMS_ISA

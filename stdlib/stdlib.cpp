@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "materials/table.h"
+#include "stdlib/images_rows.h"
 #include "stdlib/isa.h"
 
 namespace mms::stdlib {
@@ -21,6 +22,7 @@ std::span<const vm::Builtin> builtins() {
     const auto ours = has_avx2() ? avx2_rows() : baseline_rows();
     const auto materials = materials::rows();
     std::vector<vm::Builtin> r(ours.begin(), ours.end());
+    r.insert(r.end(), std::begin(kImageRows), std::end(kImageRows));
     r.insert(r.end(), materials.begin(), materials.end());
     return r;
   }();

@@ -11,6 +11,8 @@ namespace mms::tools {
 Verb check_verb();
 Verb render_verb();
 Verb merge_verb();
+Verb compare_verb();
+Verb converge_verb();
 Verb info_verb();
 Verb eval_verb();
 Verb bounds_verb();
@@ -25,9 +27,9 @@ Verb fmt_verb();
 Verb test_verb();
 
 /// In the order of `mms --help`.
-inline constexpr Verb (*kVerbs[])() = {check_verb,    render_verb,  merge_verb,     info_verb,
-                                       eval_verb,     bounds_verb,  disasm_verb,    compile_verb,
-                                       accuracy_verb, profile_verb, fmt_verb,       test_verb,
-                                       explain_verb,  doc_verb,     completion_verb};
+inline constexpr Verb (*kVerbs[])() = {
+    check_verb, render_verb, merge_verb,   compare_verb, converge_verb,  info_verb,
+    eval_verb,  bounds_verb, disasm_verb,  compile_verb, accuracy_verb,  profile_verb,
+    fmt_verb,   test_verb,   explain_verb, doc_verb,     completion_verb};
 
 }  // namespace mms::tools

@@ -14,6 +14,7 @@ enum class Exit : int {
   Usage = 2,
   File = 3,
   Budget = 4,
+  Differs = 5,
   Internal = 70,
   Interrupted = 130
 };
@@ -29,6 +30,7 @@ inline constexpr ExitInfo kExits[] = {
     {Exit::Usage, "the command was not understood, or an option's value is out of range"},
     {Exit::File, "a file could not be read or written"},
     {Exit::Budget, "the script ran out of its budget of steps or depth while running"},
+    {Exit::Differs, "pictures differ by more than --threshold"},
     {Exit::Internal, "out of memory, or a fault of our own: please report it"},
     {Exit::Interrupted, "stopped by Ctrl-C; what was there has been written"},
 };

@@ -5,7 +5,9 @@
 
 #include "renderer/error.h"
 #include "renderer/film_file.h"
+#include "renderer/picture.h"
 #include "tools/merge.h"
+#include "tools/output.h"
 
 namespace mms::tools {
 
@@ -47,14 +49,17 @@ void print_report(const MergeRequest& request, const StoredFilm& sum) {
 }  // namespace
 
 Exit merge_films(const MergeRequest& request) {
-  if (const auto ok = renderer::check_writable(request.output); !ok)
+  if (const auto ok = check_output({request.output}, request); !ok)
     return fail(Exit::File, ok.error(), request);
   const Result<StoredFilm> sum = add_up(request.films);
   if (!sum) return fail(Exit::File, sum.error(), request);
   const auto written =
       request.output.ends_with(renderer::kFilmExtension)
           ? renderer::save_film(request.output, sum->key, sum->film)
-          : renderer::write_image(request.output, sum->film.develop(), {request.stops});
+          : renderer::write_picture(
+                request.output,
+                {sum->film.develop(), nullptr, metadata(request.output, sum->key, sum->film)},
+                view_of(request));
   if (!written) return fail(Exit::File, written.error(), request);
   print_report(request, *sum);
   return Exit::Ok;

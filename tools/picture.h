@@ -12,8 +12,9 @@
 namespace mms::tools {
 
 struct PictureOptions : ScriptOptions {
-  std::string exposure = "0";
+  std::string exposure = "0", contrast = "1", view = "thesis", ocio;
   double stops = 0;  ///< from `exposure`
+  double power = 1;  ///< from `contrast`
   bool quiet = false;
 };
 

@@ -11,6 +11,8 @@
 #include <iterator>
 #include <vector>
 
+#include "tools/compare.h"
+#include "tools/converge.h"
 #include "tools/merge.h"
 #include "tools/render.h"
 
@@ -39,5 +41,7 @@ Exit start_renderer(const ScriptOptions& options) {
 
 Exit render_pictures(const RenderRequest& request) { return start_renderer(request); }
 Exit merge_films(const MergeRequest& request) { return start_renderer(request); }
+Exit compare_pictures(const CompareRequest& request) { return start_renderer(request); }
+Exit measure_convergence(const ConvergeRequest& request) { return start_renderer(request); }
 
 }  // namespace mms::tools

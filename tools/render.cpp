@@ -87,6 +87,12 @@ std::optional<Error> read_numbers(RenderRequest& r) {
     return Error{"--checkpoint", fmt::format("`{}` is not a number of seconds", r.checkpoint),
                  "how much work may be lost at most; 0 is never"};
   r.checkpoint_seconds = *seconds;
+  if (!r.turntable.empty())
+    if (auto e = read("--turntable", r.turntable, 1, 9999, r.frames,
+                      "how many pictures make one turn, as in --turntable 48"))
+      return e;
+  if ((!r.sweep.empty()) + (r.frames > 0) + r.watch > 1)
+    return Error{"--sweep", "one of --sweep, --turntable and --watch at a time", "leave two out"};
   return read_picture_options(r);
 }
 
@@ -96,8 +102,9 @@ Exit render(RenderRequest request) {
 }
 
 void add_render_options(Verb& verb, RenderRequest& r) {
-  verb.add({"-o,--output", &r.output, "PATH",
-            "Picture (.png, .exr), exact sums (.film), or a folder for each NAME.png"});
+  verb.add(
+      {"-o,--output", &r.output, "PATH",
+       "Picture (.png, .exr), exact sums (.film), a folder for each NAME.png, or a sheet of all"});
   verb.add({"--samples", &r.samples, "N|A:B", "Samples for each pixel [64], or their numbers"});
   verb.add({"--time", &r.time, "SECONDS", "End after so long"});
   verb.add({"--error", &r.error, "E", "End when the estimated error is no larger; 1 is white"});
@@ -115,8 +122,23 @@ void add_render_options(Verb& verb, RenderRequest& r) {
   verb.add({"--seed", &r.seed, "N", "Same seed, same picture, bit for bit [0]"});
   verb.add({"--threads", &r.threads, "N", "Threads; 0 is all of the machine [0]"});
   verb.add({"--report", &r.report, "", "Print the counters of the render too"});
+  verb.add({"--estimator",
+            &r.estimator,
+            "NAME",
+            "For comparison: clustered, unweighted or single [clustered]",
+            {"clustered", "unweighted", "single"}});
+  verb.add({"--sampler",
+            &r.sampler,
+            "NAME",
+            "For comparison: niederreiter, sobol, random or unscrambled [niederreiter]",
+            {"niederreiter", "sobol", "random", "unscrambled"}});
   verb.add({"--checkpoint", &r.checkpoint, "SECONDS",
             "Keep what is there in PATH.film so often; 0 is never [60]"});
+  verb.add({"--sweep", &r.sweep, "PARAM=A:B:N",
+            "A sheet of N pictures with captions, a param from A to B"});
+  verb.add({"--turntable", &r.turntable, "N", "N pictures NAME.000.png ... of one turn"});
+  verb.add({"--watch", &r.watch, "",
+            "Render again whenever a file of the picture changes, until Ctrl-C"});
   verb.add({"--resume", &r.resume, "", "Go on from PATH.film, if it is there"});
 }
 
@@ -132,6 +154,10 @@ Verb render_verb() {
             "  mms render marble.mms\n  mms render marble.mms -o marble.exr --samples 256\n"
             "  mms render marble.mms --error 0.01 --time 60\n"
             "  mms render examples/*.mms -o out/ --size 256x256\n"
+            "  mms render marble.mms --watch\n"
+            "  mms render a.mms b.mms -o sheet.png\n"
+            "  mms render metal.mms --sweep roughness=0:1:6 --size 256x256 -o sweep.png\n"
+            "  mms render marble.mms --turntable 48 -o turn/\n"
             "  mms render --set scale=8 --surface marble marble.mms --report",
             {},
             [request] { return render(*request); }};

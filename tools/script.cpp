@@ -3,11 +3,13 @@
 
 #include <unistd.h>
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 
 #include <fmt/format.h>
 
+#include "api/images.h"
 #include "api/inputs.h"
 #include "api/library.h"
 #include "lang/parser.h"
@@ -32,6 +34,12 @@ void add_script_options(Verb& verb, ScriptOptions& o) {
   verb.add({"-W", &o.warnings, "WORD",
             "-Werror makes errors of warnings, -Werror=NAME of one, -Wno-NAME silences it; "
             "docs/errors.md has the names"});
+  verb.add({"--missing",
+            &o.missing,
+            "WHAT",
+            "An image that cannot be read is an error (the default), or a warning and magenta",
+            {"error", "magenta"}});
+  verb.add({"--image-memory", &o.image_memory, "MB", "Memory that images may take [1024]"});
   add_colour_option(verb, o);
 }
 
@@ -141,15 +149,30 @@ bool only_settings(const lang::Diagnostics& diagnostics) {
                      });
 }
 
+/// What opens the images of scripts; the error is one of the option.
+Result<std::unique_ptr<vm::ImageSource>> image_library(const ScriptOptions& options) {
+  double megabytes = api::kImageMegabytes;
+  if (const std::string& text = options.image_memory; !text.empty()) {
+    const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), megabytes);
+    if (wrong != std::errc() || end != text.data() + text.size() || !(megabytes >= 1))
+      return Error{"--image-memory", fmt::format("`{}` is not a number from 1 up", text),
+                   "megabytes, as in --image-memory 4096"};
+  }
+  return std::unique_ptr<vm::ImageSource>(std::make_unique<api::ImageLibrary>(megabytes));
+}
+
 std::optional<lang::Linked> link(const std::vector<lang::SourcePtr>& sources,
                                  const Settings& settings, const ScriptOptions& options,
-                                 lang::Diagnostics& diagnostics, Exit& exit) {
+                                 vm::ImageSource& images, lang::Diagnostics& diagnostics,
+                                 Exit& exit) {
   lang::LinkOptions link;
   link.level = static_cast<lang::Level>(options.level[0] - '0');
   link.dump_after = options.dump_after;
   link.import_path = options.import_path;
   link.params = settings.plain;
   link.unknown_params = lang::UnknownParams::Report;
+  link.images = &images;
+  if (options.missing == "magenta") link.missing_images = lang::MissingImages::Magenta;
   std::vector<lang::Graph> graphs;
   for (const lang::SourcePtr& source : sources) {
     diagnostics.keep(source);
@@ -165,8 +188,8 @@ std::optional<lang::Linked> link(const std::vector<lang::SourcePtr>& sources,
 /// The same where one of the sources is a compiled program, in which params are what they are.
 std::optional<lang::Linked> load(const std::vector<lang::SourcePtr>& sources,
                                  const Settings& settings, const ScriptOptions& options,
-                                 Exit& exit) {
-  auto loaded = load_stored(sources);
+                                 vm::ImageSource& images, Exit& exit) {
+  auto loaded = load_stored(sources, images, options.missing == "magenta");
   if (!loaded) {
     exit = fail(sources.size() > 1 ? Exit::Usage : Exit::File, loaded.error(), options);
     return std::nullopt;
@@ -216,8 +239,14 @@ std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
     return std::nullopt;
   }
   diagnostics = lang::Diagnostics(*warnings);
-  auto linked = any_stored(sources) ? load(sources, *settings, options, exit)
-                                    : link(sources, *settings, options, diagnostics, exit);
+  const auto images = image_library(options);
+  if (!images) {
+    exit = fail(Exit::Usage, images.error(), options);
+    return std::nullopt;
+  }
+  auto linked = any_stored(sources)
+                    ? load(sources, *settings, options, **images, exit)
+                    : link(sources, *settings, options, **images, diagnostics, exit);
   if (!linked) return std::nullopt;
   auto set = variables(*settings, *linked, options.at_points);
   if (!set) {

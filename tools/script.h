@@ -23,7 +23,9 @@ struct ScriptOptions {
   std::vector<std::string> warnings;  ///< words after -W
   std::string dump_after;             ///< a pass of lang::passes(), for Linked::dump
   std::string level = "2", colour = "auto", format = "text";
-  bool at_points = false;  ///< the verb evaluates points, so `--set` may set `$variables`
+  std::string missing = "error";  ///< images that cannot be read: `error` or `magenta`
+  std::string image_memory;       ///< megabytes of `--image-memory`; empty: the default
+  bool at_points = false;         ///< the verb evaluates points, so `--set` may set `$variables`
 
   bool json() const { return format == "json"; }
 };

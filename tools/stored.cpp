@@ -20,7 +20,8 @@ bool any_stored(const std::vector<lang::SourcePtr>& sources) {
   return std::any_of(sources.begin(), sources.end(), is_stored);
 }
 
-Result<lang::Linked> load_stored(const std::vector<lang::SourcePtr>& sources) {
+Result<lang::Linked> load_stored(const std::vector<lang::SourcePtr>& sources,
+                                 vm::ImageSource& images, bool missing_are_magenta) {
   const lang::Source& file = **std::find_if(sources.begin(), sources.end(), is_stored);
   if (sources.size() > 1)
     return Error{file.name, "is a compiled program, which cannot be linked with anything more",
@@ -30,6 +31,14 @@ Result<lang::Linked> load_stored(const std::vector<lang::SourcePtr>& sources) {
     Error error = loaded.error();
     error.where = error.where.empty() ? file.name : file.name + ": " + error.where;
     return error;
+  }
+  for (vm::ProgramImage& image : loaded->program.images) {
+    auto opened = images.open(image.use);
+    if (opened)
+      image.image = *opened;
+    else if (!missing_are_magenta)
+      return Error{file.name, "the image `" + image.use.file + "` " + opened.error().what,
+                   "put it there, or compile the script again; --missing=magenta goes on without"};
   }
   lang::Linked linked;
   linked.program = std::move(loaded->program);

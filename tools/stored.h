@@ -14,9 +14,10 @@ namespace mms::tools {
 /// Whether one of the sources wants to be a compiled program, by its first bytes or its name.
 bool any_stored(const std::vector<lang::SourcePtr>& sources);
 
-/// The program in the only source. Errors: there is another source too, it is damaged, or does not
-/// fit this build.
+/// The program in the only source, its images opened. Errors: there is another source too, it is
+/// damaged, or does not fit this build; an image cannot be read, unless those are to be magenta.
 /// \pre `any_stored(sources)`
-Result<lang::Linked> load_stored(const std::vector<lang::SourcePtr>& sources);
+Result<lang::Linked> load_stored(const std::vector<lang::SourcePtr>& sources,
+                                 vm::ImageSource& images, bool missing_are_magenta);
 
 }  // namespace mms::tools

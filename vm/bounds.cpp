@@ -171,7 +171,20 @@ struct BoundsMachine::State : ValueTable {
     for (const Index n : args) in.push_back(value(n));
     out.resize(results.size());
     enclose_row(row, results, in, out);
+    if (row.image32 && results.size() % 2 == 1) enclose_image();  // slopes come in pairs
     for (const Interval& r : out) p.stack.push_back(make(r, i.op));
+  }
+
+  /// What the picture that `in` names can give, in `out`.
+  void enclose_image() {
+    constexpr double kRounding = 4;  // ulps of weighing texels
+    const double number = in[0].lo;
+    if (!in[0].is_point()) return;
+    const bool there = number >= 0 && number < double(program.images.size());
+    const Image* image = there ? program.images[std::size_t(number)].image.get() : nullptr;
+    double low, high;
+    (image ? *image : *magenta()).range(low, high);
+    out.assign(out.size(), reals_within(std::min(low, 0.0), std::max(high, 0.0), kRounding));
   }
 
   // Calls

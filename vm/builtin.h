@@ -24,6 +24,12 @@ namespace mms::vm {
 /// logic cells are std::int32_t in either machine.
 using Kernel = void (*)(const void* const* in, void* const* out, int lanes);
 
+class Image;  // vm/images.h
+
+/// The same for rows that look pictures up: these are the ones of the program, by number.
+using ImageKernel = void (*)(const Image* const* images, int count, const void* const* in,
+                             void* const* out, int lanes);
+
 /// Batches are padded to this many lanes, so kernels need no remainder loop.
 inline constexpr int kLaneMultiple = 16;
 
@@ -77,6 +83,8 @@ struct Builtin {
   /// What the results can be over a box of arguments.
   RowBounds bounds = {};
   Kernel f32 = nullptr, f64 = nullptr;
+  /// Of a row that looks pictures up; `f32` and `f64` are then what it gives where there are none.
+  ImageKernel image32 = nullptr, image64 = nullptr;
   /// An instruction that does just what the kernels do, without the cost of a call.
   LoweredOp instruction = LoweredOp::CallBuiltin;
   /// For results of type `material`: which scattering model or combiner (materials/table.h). Such

@@ -8,12 +8,13 @@
 #include "vm/call_graph.h"
 #include "vm/limits.h"
 #include "vm/lower.h"
+#include "vm/uniform.h"
 
 namespace mms::vm {
 namespace {
 
 constexpr std::uint32_t bit(Variable v) { return 1u << static_cast<int>(v); }
-constexpr std::uint32_t kOfTheFrame = bit(Variable::Time);
+constexpr std::uint32_t kOfTheFrame = bit(kUniformVariable);
 constexpr std::uint32_t kOfTheRay =
     bit(Variable::View) | bit(Variable::Distance) | bit(Variable::Footprint);
 

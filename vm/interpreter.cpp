@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cstring>
 #include <new>
 
 #include "vm/lower.h"
 #include "vm/machine.h"
+#include "vm/uniform.h"
 
 namespace mms::vm {
 namespace {
@@ -100,6 +102,15 @@ void execute(bool avx2, Machine& m, std::uint32_t function, std::byte* frame) {
   (void)avx2;
   baseline::execute(R(), m, function, frame, 0);
 }
+
+/// Whether the first lanes have one value of what belongs to the frame. The double machine, whose
+/// lanes have different sizes, never asks.
+bool is_uniform(const InputBatch<float>& in, int lanes) {
+  const float* v = in.data() + input_block(input_index(kUniformVariable)) * round_up(in.width());
+  const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+  return std::all_of(v, v + lanes, [&](float x) { return bits(x) == bits(v[0]); });
+}
+bool is_uniform(const InputBatch<double>&, int) { return false; }
 
 }  // namespace
 
@@ -241,9 +252,12 @@ void Interpreter<R>::run(const Executable& exe, std::uint32_t function, const In
   m.functions = code.functions.data();
   m.sites = code.sites.data();
   m.operands = code.operands.data();
+  m.images = code.image_table.data();
+  m.image_count = int(code.image_table.size());
   m.inputs = reinterpret_cast<std::byte*>(const_cast<R*>(in.data()));  // only read
   m.input_stride = std::size_t(round_up(in.width())) * sizeof(R);
   m.lanes = round_up(lanes);
+  m.uniform = code.uniform_sites && is_uniform(in, lanes);
   m.spent = s.spent.data();
   m.alive = s.alive.data();
   m.faults = s.faults.data();

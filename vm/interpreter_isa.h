@@ -189,11 +189,21 @@ class Frame {
   void builtin(const CallSite& s) {
     const Operand* arg = m_.operands + s.first_arg;
     const Operand* result = m_.operands + s.first_result;
+    const bool once = s.uniform && m_.uniform;
     for (uint32_t r = 0; r < s.repeats; ++r) {
       for (uint32_t k = 0; k < s.args; ++k) m_.in[k] = at<const void>(*arg++);
       for (uint32_t k = 0; k < s.results; ++k) m_.out[k] = at<void>(*result++);
-      (sizeof(R) == sizeof(float) ? s.f32 : s.f64)(m_.in, m_.out, n_);
+      const int lanes = once ? kLaneMultiple : n_;
+      if (const auto kernel = sizeof(R) == sizeof(float) ? s.image32 : s.image64)
+        kernel(m_.images, m_.image_count, m_.in, m_.out, lanes);
+      else
+        (sizeof(R) == sizeof(float) ? s.f32 : s.f64)(m_.in, m_.out, lanes);
+      for (uint32_t k = 0; once && k < s.results; ++k) spread(static_cast<int32_t*>(m_.out[k]));
     }
+  }
+  /// The first cell of a block to all its lanes. Only where all cells have one size.
+  void spread(int32_t* block) {
+    for (int k = kLaneMultiple; k < n_; ++k) block[k] = block[0];
   }
 
   void give_up(int lane, Fault::Cause cause, SourceLine line) {

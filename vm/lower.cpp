@@ -10,6 +10,7 @@
 #include "vm/fuse.h"
 #include "vm/input_use.h"
 #include "vm/slots.h"
+#include "vm/uniform.h"
 
 namespace mms::vm {
 namespace {
@@ -523,6 +524,8 @@ class FunctionLowering {
     CallSite site;
     site.f32 = program_.builtins[builtin]->f32;
     site.f64 = program_.builtins[builtin]->f64;
+    site.image32 = program_.builtins[builtin]->image32;
+    site.image64 = program_.builtins[builtin]->image64;
     return site;
   }
 
@@ -655,6 +658,10 @@ LoweredCode lower(const Program& program, const PairOf& pair_of) {
   LoweredCode code;
   code.constants = program.constants;
   code.identity = std::make_shared<const char>();
+  for (const ProgramImage& i : program.images) {
+    code.images.push_back(i.image ? i.image : magenta());
+    code.image_table.push_back(code.images.back().get());
+  }
   const CallGraph graph = call_graph(program);
   for (std::uint32_t f = 0; f < program.functions.size(); ++f) {
     FunctionLowering lowering(program, f, code);
@@ -665,6 +672,7 @@ LoweredCode lower(const Program& program, const PairOf& pair_of) {
     code.results.push_back(lowering.results());
   }
   find_input_use(code, graph);
+  find_uniform_sites(code);
   return code;
 }
 

@@ -53,9 +53,11 @@ struct LoweredInstruction {
 struct CallSite {
   std::uint32_t function = 0;
   Kernel f32 = nullptr, f64 = nullptr;
+  ImageKernel image32 = nullptr, image64 = nullptr;
   std::uint32_t first_arg = 0, args = 0;
   std::uint32_t first_result = 0, results = 0;
   std::uint32_t repeats = 1;
+  bool uniform = false;  ///< gives the same in all lanes where the inputs of the frame do
 };
 
 /// A frame is `masks` blocks of masks (0: lanes that run; 1, where it loops: lanes that start
@@ -87,8 +89,11 @@ struct LoweredCode {
   std::vector<Constant> constants;
   /// For each function, where its results are.
   std::vector<std::vector<LoweredResult>> results;
+  bool uniform_sites = false;        ///< has a CallSite that is uniform
   std::uint32_t builtin_blocks = 0;  ///< most arguments or results of one builtin call
   std::uint32_t frame_blocks = 0;    ///< masks and slots of the largest frame
+  std::vector<std::shared_ptr<const Image>> images;  ///< of the program, by number
+  std::vector<const Image*> image_table;             ///< the same
   /// Nobody else's: what an interpreter recognises the code by.
   std::shared_ptr<const char> identity;
 };

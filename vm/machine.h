@@ -22,6 +22,9 @@ struct Machine {
   const CallSite* sites;
   const Operand* operands;
 
+  bool uniform;  ///< the inputs of the frame are the same in all lanes
+  const Image* const* images;
+  int image_count;
   std::byte* constants;
   std::byte* inputs;
   std::size_t constant_stride, input_stride;  ///< bytes between blocks

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "vm/builtin.h"
+#include "vm/images.h"
 #include "vm/types.h"
 #include "vm/variables.h"
 
@@ -173,6 +174,7 @@ struct Program {
   std::vector<std::vector<SlotType>> builtin_params, builtin_results;  ///< flattened signatures
   std::vector<Descriptor> descriptors;
   std::vector<Export> exports;
+  std::vector<ProgramImage> images;  ///< what rows that look pictures up call by number
 
   /// The descriptor with that form and name, or null.
   const Descriptor* find(DescriptorForm form, std::string_view name) const {

@@ -30,7 +30,7 @@ struct Package {
 /// others pass unchanged.
 inline constexpr std::string_view kMagic = "\x89mms\r\n\x1a\n";
 /// Of the form; any other is refused.
-inline constexpr std::uint32_t kFormat = 1;
+inline constexpr std::uint32_t kFormat = 2;
 /// Magic, format number, checksum, length of the file.
 inline constexpr std::size_t kHeaderBytes = 24;
 /// Longer files are refused unread.

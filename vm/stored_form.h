@@ -140,6 +140,20 @@ void fields(V& v, Export& e) {
   v("function", function, "place in `functions`");
 }
 
+constexpr const char* name_of(const ProgramImage&) { return "image"; }
+template <class V>
+void fields(V& v, ProgramImage& i) {
+  auto& [use, image] = i;
+  auto& [file, filter, wrap, space, channel, storage] = use;
+  (void)image;
+  v("file", file, "`<UDIM>` stands for the numbers of tiles");
+  v("filter", filter, "between texels");
+  v("wrap", wrap, "outside [0, 1]");
+  v("space", space, "colour space of the file's numbers");
+  v("channel", channel, "of a number; empty: luminance, or the only one");
+  v("storage", storage, "in memory");
+}
+
 constexpr const char* name_of(const ParamInfo&) { return "param"; }
 template <class V>
 void fields(V& v, ParamInfo& p) {
@@ -161,7 +175,7 @@ void fields(V& v, StoredForm& s) {
   auto& [program, params, dependencies] = package;
   // The rows that `builtins` name have these.
   auto& [sources, constants, block_types, functions, rows, row_params, row_results, descriptors,
-         exports] = program;
+         exports, images] = program;
   (void)rows, (void)row_params, (void)row_results;
   v("instructions", instructions, "names of those that occur");
   v("variables", variables, "type and name of those that are read: `real[3] position`");
@@ -175,6 +189,7 @@ void fields(V& v, StoredForm& s) {
   v("functions", functions, "");
   v("descriptors", descriptors, "");
   v("exports", exports, "");
+  v("images", images, "pictures that are looked up, by number");
 }
 
 /// A struct that has a row here.

@@ -15,7 +15,9 @@ template <class R>
 class Tracer {
  public:
   Tracer(const Program& program, InputBatch<R>& in, int lane, std::size_t most)
-      : program_(program), in_(in), lane_(lane), most_(most) {}
+      : program_(program), in_(in), lane_(lane), most_(most) {
+    for (const ProgramImage& i : program.images) images_.push_back(i.image.get());
+  }
 
   Trace run(std::uint32_t function) {
     const std::vector<Cell> results = call(function, {}, 0);
@@ -246,8 +248,12 @@ class Tracer {
     }
     for (std::size_t k = 0; k < results.size(); ++k)
       out_pointers[k] = real(results[k].type) ? static_cast<void*>(out[k].r) : out[k].i;
-    (sizeof(R) == sizeof(float) ? row.f32 : row.f64)(in_pointers.data(), out_pointers.data(),
-                                                     kLaneMultiple);
+    if (const auto look_up = sizeof(R) == sizeof(float) ? row.image32 : row.image64)
+      look_up(images_.data(), int(images_.size()), in_pointers.data(), out_pointers.data(),
+              kLaneMultiple);
+    else
+      (sizeof(R) == sizeof(float) ? row.f32 : row.f64)(in_pointers.data(), out_pointers.data(),
+                                                       kLaneMultiple);
     for (std::size_t k = 0; k < results.size(); ++k)
       real(results[k].type) ? void(results[k].r[component] = out[k].r[0])
                             : void(results[k].i = out[k].i[0]);
@@ -345,6 +351,7 @@ class Tracer {
   }
 
   const Program& program_;
+  std::vector<const Image*> images_;
   InputBatch<R>& in_;
   int lane_;
   std::size_t most_;

@@ -228,7 +228,7 @@ TEST_CASE("numbers out of range") {
 }
 
 TEST_CASE("one picture for two scripts") {
-  check_render("good.mms -o out.png" + std::string(kSmall), 2, "-o", "2 scripts");
+  check_render("good.mms -o out.exr" + std::string(kSmall), 2, "-o", "2 scripts");
 }
 
 TEST_CASE("a scene that is missing, or with an unknown key") {

@@ -20,6 +20,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+#if MMS_RENDERER
 /// Runs well and silently.
 void good(const Folder& folder, const std::string& args) {
   const Outcome run = folder.mms(args);
@@ -27,7 +28,6 @@ void good(const Folder& folder, const std::string& args) {
   REQUIRE(run.exit == 0);
 }
 
-#if MMS_RENDERER
 int kills() {
   const char* text = std::getenv("MMS_KILLS");
   return text ? std::atoi(text) : 3;

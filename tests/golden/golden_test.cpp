@@ -81,6 +81,12 @@ TEST_CASE("every message is provoked by a golden script") {
   large(deep_sum());
   for (const Limit& l : limit_scripts())
     if (!provoked.contains(l.code)) large(l.broken);
+  lang::LinkOptions magenta;
+  magenta.missing_images = lang::MissingImages::Magenta;
+  const auto script = lang::make_source("test.mms", "real f() = image_value(\"gone\", $uv);");
+  const Compiled replaced = compile(script, magenta);
+  for (const lang::Diagnostic& d : replaced.diagnostics.all())
+    provoked.emplace(lang::info(d.id).code);
   for (const lang::DiagInfo& row : lang::all_diagnostics()) {
     CAPTURE(row.code);
     CAPTURE(row.name);

@@ -162,12 +162,12 @@ class LibraryCall {
                                               : kInfinity);
       }
     }
-    return bounds(here, moved, sure, args.size());
+    return bounds(here, moved, sure, double(args.size()) * size_of_sums(at));
   }
 
  private:
   std::vector<BoundedCell> bounds(const std::vector<double>& here, const std::vector<double>& moved,
-                                  bool sure, std::size_t args) const {
+                                  bool sure, double rounded) const {
     double largest = 0;
     for (const double v : here)
       if (std::isfinite(v)) largest = std::max(largest, std::fabs(v));
@@ -183,13 +183,22 @@ class LibraryCall {
       if (std::isfinite(here[j])) {
         e += row_.max_ulp * 2 * kRounding * (std::fabs(here[j]) + e);
         if (row_.max_ulp > 0) e += double(FLT_MIN);  // small results may be flushed
-        if (noise_) e += 64 * double(args) * kRounding * (1 + largest);
+        if (noise_) e += 64 * rounded * kRounding * (1 + largest);
         if (here.size() > 1) e += 0x1p-46 * largest;  // the double kernel where parts cancel
         if (!(std::fabs(here[j]) + e < 0.999 * double(FLT_MAX))) e = kInfinity;
       }
       out[j].r[0].e = e;
     }
     return out;
+  }
+
+  /// What a derivative of noise is the sum of, which may cancel: each order along an axis
+  /// multiplies that by up to 30.
+  double size_of_sums(const std::vector<double>& at) const {
+    double size = 1;
+    for (std::size_t k = 0; name_.ends_with("_derivative") && k < at.size(); ++k)
+      if (params_[k] != vm::SlotType::Real) size *= std::pow(30, std::clamp(at[k], 0.0, 9.0));
+    return size;
   }
 
   double error(const BoundedCell& c) const { return c.r[0].e + (noise_ ? 0x1p-20 : 0.0); }

@@ -17,10 +17,10 @@
 #include <string>
 #include <vector>
 
+#include "base/quadrature.h"
 #include "base/vec.h"
 #include "tests/sanitized.h"
 #include "tests/stats/distributions.h"
-#include "tests/stats/quadrature.h"
 #include "tests/stats/random.h"
 
 namespace mms::stats {

@@ -2,7 +2,11 @@
 // Albedo by quadrature, two-sided where a model is lossless; reciprocity; delta weights.
 #include <doctest/doctest.h>
 
-#include "tests/stats/quadrature.h"
+#include <string>
+#include <vector>
+
+#include "base/quadrature.h"
+#include "tests/sanitized.h"
 #include "tests/stats/random.h"
 #include "tests/unit/materials/cases.h"
 
@@ -13,37 +17,41 @@ using materials::Mode;
 
 namespace {
 
-/// Albedo of the upper side without deltas, over x = cos^2 and the azimuth from the mirror
-/// direction's, both refined towards the mirror direction.
-double albedo(const Material& m, double degrees, double tolerance = 1e-9) {
+/// What the hemisphere of z > 0 or z < 0 gets of `wo`, without deltas, at wavelength `j`: over
+/// x = cos^2 and the azimuth from `wo`'s opposite, both from the direction (cos^2 = `peak`) where
+/// the lobe may be narrow, as eighth powers near it: `panels` Gauss rules of 8 points along each.
+double hemisphere(const Bsdf<double>& bsdf, Vec3d wo, bool upper, double peak, int panels) {
+  const int n = 8 * panels;
+  const double start = std::atan2(-wo.y, -wo.x);
+  std::vector<double> offset(n), weight(n);  // 1 - (1 - u^8)^2: smooth in z where z is 0
+  for (int i = 0; i < n; ++i) {
+    const double u = (i / 8 + gauss<8>().x[i % 8]) / panels;
+    const double far = 1 - std::pow(u, 8);
+    offset[i] = 1 - far * far;
+    weight[i] = 16 * far * std::pow(u, 7) * gauss<8>().w[i % 8] / panels;
+  }
+  double sum = 0;
+  for (const double reach : {1 - peak, -peak})
+    for (int i = 0; i < n; ++i) {
+      const double x = peak + reach * offset[i], z = std::sqrt(x), r = std::sqrt(1 - x);
+      double ring = 0;
+      for (int k = 0; k < n; ++k)
+        for (const double a : {kPi<double> * offset[k], -kPi<double> * offset[k]}) {
+          const Vec3d wi{r * std::cos(start + a), r * std::sin(start + a), upper ? z : -z};
+          ring += weight[k] * bsdf.eval(wo, wi, Mode::Importance)[0];
+        }
+      sum += std::abs(reach) * weight[i] * ring;
+    }
+  return sum * kPi<double> / 2;  // dx = 2 cos sin dtheta
+}
+
+/// Albedo towards the side of `wo` without deltas.
+double albedo(const Material& m, double degrees, double azimuth = 0,
+              int panels = kSanitized ? 8 : 12) {
   const materials::Layout layout = m.layout();
   const auto p = m.params<double>();
-  const Bsdf<double> bsdf(layout, p.data());
-  const Vec3d wo = direction(degrees, 0.0);
-  const double y = wo.z * wo.z;
-  const auto ring = [&](double x) {
-    const double z = std::sqrt(x), r = std::sqrt(1 - x);
-    const auto f = [&](double phi) {
-      return bsdf.eval(wo, {-r * std::cos(phi), -r * std::sin(phi), z}, Mode::Radiance)[0];
-    };
-    double sum = 0, a = 0;
-    for (double b = 1e-6; a < kPi<double>; a = b, b = std::min(4 * b, kPi<double>))
-      sum += stats::integrate_adaptive(f, a, b, tolerance);
-    return sum;  // half the circle, dx = 2 cos sin dtheta
-  };
-  double sum = 0;
-  // Cut geometrically on both sides of y.
-  const auto side = [&](double end) {
-    double a = 0;
-    const double reach = std::abs(end - y);
-    for (double b = std::min(1e-7, reach); a < reach; a = b, b = std::min(4 * b, reach)) {
-      const double s = end > y ? 1 : -1;
-      sum += stats::integrate_adaptive([&](double d) { return ring(y + s * d); }, a, b, tolerance);
-    }
-  };
-  side(1);
-  side(0);
-  return sum;
+  const Vec3d wo = direction(degrees, azimuth);
+  return hemisphere(Bsdf<double>(layout, p.data()), wo, wo.z > 0, wo.z * wo.z, panels);
 }
 
 }  // namespace
@@ -60,21 +68,125 @@ TEST_CASE("the thesis' glossy model is lossless") {
   MESSAGE("glossy, m <= 1e4: largest |albedo - 1| ", worst);
 }
 
-TEST_CASE("one-sided albedos of what may lose") {
-  CHECK(albedo(matte(0.37), 40) == doctest::Approx(0.37).epsilon(1e-9));
-  for (double roughness : {0.1, 0.3, 0.5, 1.0}) {
-    double low = 1, high = 0;
-    for (double degrees : {0.0, 30.0, 60.0, 85.0, 89.99}) {
-      const double a = albedo(microfacet(1, roughness), degrees, 1e-6);
-      low = std::min(low, a);
-      high = std::max(high, a);
-      CHECK(a <= 1 + 1e-4);
-      // Single scattering at alpha = 1 and normal incidence: D G2 / 4 integrates to 1 - ln 2.
-      if (roughness == 1.0 && degrees == 0.0)
-        CHECK(a == doctest::Approx(1 - std::log(2.0)).epsilon(1e-5));
-    }
-    MESSAGE("microfacet ", roughness, ": white albedo ", low, " to ", high);
+namespace {
+
+/// Largest |albedo - 1| over directions.
+double worst_loss(const Material& m, double azimuth = 0, int panels = kSanitized ? 8 : 12) {
+  double worst = 0;
+  for (double degrees : {0.0, 30.0, 60.0, 75.0, 85.0, 89.0, 89.99, 150.0, 91.0}) {
+    if (kSanitized && degrees != 60 && degrees != 91) continue;
+    worst = std::max(worst, std::abs(albedo(m, degrees, azimuth, panels) - 1));
   }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("white microfacets are lossless at every roughness") {
+  struct Model {
+    std::string name;
+    Material (*make)(double roughness, double anisotropy);
+    double round, stretched;  ///< bounds: anisotropic tables have four axes and are coarser
+  };
+  const Model models[] = {
+      {"microfacet", [](double r, double a) { return microfacet(1, r, a); }, 1e-4, 2e-3},
+      {"beckmann", [](double r, double a) { return beckmann(1, r, a); }, 1e-4, 2e-3},
+      {"conductor", [](double r, double a) { return conductor(1, 1e25, r, a); }, 1e-4, 2e-3}};
+  for (const Model& model : models) {
+    double round = 0, slightly = 0, stretched = 0;
+    for (double roughness : {0.02, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 0.9, 1.0})
+      round = std::max(round, worst_loss(model.make(roughness, 0), 0, roughness < 0.05 ? 24 : 12));
+    for (double roughness : {0.2, 0.7})
+      for (double azimuth : {0.0, 0.5, 1.5}) {
+        slightly = std::max(slightly, worst_loss(model.make(roughness, -0.5), azimuth));
+        stretched = std::max(stretched, worst_loss(model.make(roughness, 0.9), azimuth));
+      }
+    CHECK_MESSAGE(round < model.round, model.name);
+    CHECK_MESSAGE(slightly < model.stretched, model.name);
+    CHECK_MESSAGE(stretched < model.stretched, model.name);
+    MESSAGE(model.name, ": largest |albedo - 1| ", round, "; anisotropy 0.5: ", slightly,
+            "; 0.9: ", stretched);
+  }
+}
+
+namespace {
+
+/// Albedo as the mean weight of `count` samples at the points of an additive recurrence in three
+/// dimensions (steps 1/g, 1/g^2, 1/g^3 with g^4 = g + 1). For lobes with edges inside a hemisphere,
+/// which the rules above do not see; that samples follow the density is tested by itself.
+double mean_weight(const Material& m, Vec3d wo, int count) {
+  const materials::Layout layout = m.layout();
+  const auto p = m.params<double>();
+  const Bsdf<double> bsdf(layout, p.data());
+  double sum = 0, u[3] = {0.5, 0.5, 0.5};
+  for (int i = 0; i < count; ++i) {
+    const double steps[] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+    for (int k = 0; k < 3; ++k) u[k] = std::fmod(u[k] + steps[k], 1.0);
+    const auto s = bsdf.sample(wo, u[0], u[1], u[2], Mode::Importance);
+    if (s) sum += s->f[0] * std::abs(s->wi.z) / s->pdf[0];
+  }
+  return sum / count;
+}
+
+}  // namespace
+
+TEST_CASE("white rough glass is lossless from both sides") {
+  double worst = 0;
+  for (double ior : {0.7, 1.33, 1.5, 2.5})
+    for (double roughness : {0.3, 0.6, 0.9})
+      for (double degrees : {0.0, 60.0, 89.0, 150.0, 110.0}) {
+        if (kSanitized && (ior != 1.5 || roughness != 0.6)) continue;
+        const int count = kSanitized ? 20'000 : 200'000;
+        const double a = mean_weight(dielectric(ior, roughness), direction(degrees, 0), count);
+        worst = std::max(worst, std::abs(a - 1));
+        // Weights spread by at most 0.5: 200 000 of them, were they independent, by 1.1e-3 about
+        // their mean; points this even do better by two.
+        CHECK_MESSAGE(std::abs(a - 1) < (kSanitized ? 6e-3 : 2e-3), ior, " ", roughness, " at ",
+                      degrees, ": ", a);
+      }
+  MESSAGE("dielectric: largest |albedo - 1| ", worst);
+}
+
+TEST_CASE("rough matte is lossless, and older models lose") {
+  for (double r : {0.0, 1e-6, 0.3, 1.0})
+    for (double degrees : {0.0, 45.0, 75.0, 89.0, 89.99, 150.0})
+      CHECK(std::abs(albedo(tinted(Lobe::RoughMatte, 1, {r}), degrees, 0, 20) - 1) < 1e-4);
+  // A colour: the sum over bounces of its closed form, at normal incidence, where one bounce keeps
+  // a (1 - r (c1 - G / pi)) with G = 0: c1 = 1/2 - 2 / (3 pi), and c2 = 2/3 - 28 / (15 pi).
+  const double pi = kPi<double>, c1 = 0.5 - 2 / (3 * pi), c2 = 2.0 / 3 - 28 / (15 * pi);
+  const double one = 1 / (1 + c1), kept = (1 + c2) / (1 + c1), rho = 0.5;
+  CHECK(albedo(tinted(Lobe::RoughMatte, rho, {1}), 0) ==
+        doctest::Approx(rho * one + (1 - one) * rho * rho * kept / (1 - rho * (1 - kept)))
+            .epsilon(1e-6));
+  // Oren and Nayar's at normal incidence has no second term.
+  CHECK(albedo(tinted(Lobe::OrenNayar, 1, {0.4}), 0) ==
+        doctest::Approx(1 - 0.5 * 0.16 / (0.16 + 0.33)).epsilon(1e-6));
+  struct Row {
+    Lobe lobe;
+    std::vector<double> numbers;
+    double normal;  ///< albedo of white at normal incidence
+  };
+  const Row rows[] = {{Lobe::Phong, {20}, 1},
+                      {Lobe::MaxPhong, {20}, 21.0 / 22},
+                      {Lobe::Spot, {0.2, 0.5}, 1},
+                      {Lobe::GlossyProduct, {30, 0}, 1},
+                      {Lobe::OrenNayar, {1.0}, 0},
+                      {Lobe::Ward, {0.5, 0.5}, 0},
+                      {Lobe::AshikhminShirley, {30, 5}, 0},
+                      {Lobe::Sheen, {0.1}, 0},
+                      {Lobe::Sheen, {0.5}, 0},
+                      {Lobe::Sheen, {1.0}, 0}};
+  for (const Row& row : rows) {
+    const Material m = tinted(row.lobe, 1, row.numbers);
+    if (row.normal > 0) CHECK(albedo(m, 0) == doctest::Approx(row.normal).epsilon(1e-4));
+    for (double degrees : {0.0, 30.0, 60.0, 80.0, 89.0, 89.99})
+      CHECK_MESSAGE(albedo(m, degrees) < 1 + 1e-3, materials::rows()[int(row.lobe)].signature, " ",
+                    degrees);
+  }
+}
+
+TEST_CASE("matte keeps its colour") {
+  CHECK(albedo(matte(0.37), 40) == doctest::Approx(0.37).epsilon(1e-9));
 }
 
 TEST_CASE("white under a white coat") {
@@ -89,7 +201,7 @@ TEST_CASE("white under a white coat") {
     for (double gloss : {4.0, 40.0, 1000.0}) {
       double low = 2, high = 0;
       for (double degrees : {0.0, 30.0, 60.0, 75.0, 85.0, 89.99}) {
-        const double a = albedo(fresnel_mix(matte(1), glossy(1, gloss), ior), degrees, 1e-7);
+        const double a = albedo(fresnel_mix(matte(1), glossy(1, gloss), ior), degrees);
         low = std::min(low, a);
         high = std::max(high, a);
         CHECK_MESSAGE(a <= 1 + 1e-4, ior, " ", gloss, " at ", degrees, ": ", a);

@@ -36,12 +36,34 @@ std::vector<Material> extreme_materials() {
     m.push_back(microfacet(1, r));
     m.push_back(microfacet(1, r, 1));
     m.push_back(microfacet(1, r, -1));
+    for (double a : {0.0, 1.0, -1.0}) m.push_back(beckmann(1, r, a));
     m.push_back(conductor(ramp(0.05, 3), ramp(0, 8), r));
     for (double ior : {1 + 1e-7, 1 - 1e-7, 1.0, 1.001, 1.5, 4.0, 0.25, 1e-9, 1e20})
       m.push_back(dielectric(ior, r));
     m.push_back(dielectric(ramp(0.9, 1.1), r));
   }
-  for (double g = 1e-12; g < 1e12; g *= 30) m.push_back(glossy(1, g));
+  for (double g = 1e-12; g < 1e12; g *= 30) {
+    m.push_back(glossy(1, g));
+    for (Lobe lobe : {Lobe::GlossyProduct, Lobe::GlossyBack, Lobe::GlossyThrough}) {
+      m.push_back(tinted(lobe, 1, {g, g}));
+      m.push_back(tinted(lobe, 1, {0, g}));
+    }
+    m.push_back(tinted(Lobe::Phong, 1, {g}));
+    m.push_back(tinted(Lobe::MaxPhong, 1, {g}));
+    m.push_back(tinted(Lobe::AshikhminShirley, 0.5, {g, 2}));
+  }
+  for (double x : {0.0, 1e-30, 1e-4, 0.3, 1.0, 1e20, std::nan(""), -1.0, double(INFINITY)}) {
+    for (Lobe lobe : {Lobe::OrenNayar, Lobe::RoughMatte, Lobe::Sheen})
+      m.push_back(tinted(lobe, 1, {x}));
+    for (Lobe lobe : {Lobe::Spot, Lobe::Ward, Lobe::AshikhminShirley, Lobe::GlossyProduct})
+      m.push_back(tinted(lobe, 1, {x, x}));
+    m.push_back(film_conductor(x, x, x, x, x, 0.3));
+    m.push_back(film_conductor(2, 3, 1.5, x, 500e-9, 0));
+    m.push_back(film_dielectric(1.5, x, 1e-7, 500e-9));
+    m.push_back(film_dielectric(x, 1.5, x, x));
+    m.push_back(coat(mirror(1), matte(1), x, x, 1.5));
+    m.push_back(coat(glossy(1, 30), matte(1), 0.1, 1, x));
+  }
   for (double k : {0.0, 1e-20, 1e5, 1e20, 1e25}) m.push_back(conductor(1, k, 0.3));
   for (double bad : {std::nan(""), -1.0, double(INFINITY)}) {
     m.push_back(matte(bad));

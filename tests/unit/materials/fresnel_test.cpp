@@ -6,7 +6,7 @@
 
 #include <complex>
 
-#include "tests/stats/quadrature.h"
+#include "base/quadrature.h"
 
 using namespace mms::materials;
 
@@ -110,8 +110,8 @@ TEST_CASE("diffuse reflectance of a dielectric is the integral of Fresnel's") {
   for (double eta : {0.3, 0.7, 0.999, 0.99999, 1.0, 1.00002, 1.001, 1.2, 1.5, 2.5, 10.0}) {
     const double critical = eta < 1 ? std::sqrt((1 - eta) * (1 + eta)) : 0;
     const auto f = [&](double c) { return 2 * c * double(fresnel_dielectric(Ld(c), Ld(eta))); };
-    const double truth = mms::stats::integrate_adaptive(f, 0, critical, 1e-12) +
-                         mms::stats::integrate_adaptive(f, critical, 1, 1e-12);
+    const double truth = mms::integrate_adaptive(f, 0, critical, 1e-12) +
+                         mms::integrate_adaptive(f, critical, 1, 1e-12);
     CHECK_MESSAGE(std::abs(fresnel_dielectric_diffuse(eta) - truth) < 2e-6, eta, ": ", truth);
   }
   // Published value for n = 1.5.

@@ -60,8 +60,36 @@ inline Material node(Lobe lobe, std::vector<Material> children, std::vector<Valu
 inline Material matte(Value c) { return node(Lobe::Matte, {}, {c}); }
 inline Material translucent(Value c) { return node(Lobe::Translucent, {}, {c}); }
 inline Material glossy(Value c, double gloss) { return node(Lobe::Glossy, {}, {c}, {gloss}); }
+/// A model of a colour and real numbers.
+inline Material tinted(Lobe lobe, Value c, std::vector<double> reals) {
+  return node(lobe, {}, {c}, std::move(reals));
+}
+inline Material film_conductor(Value n, Value k, Value film, double thickness, Value wavelength,
+                               double roughness) {
+  Material m = node(Lobe::FilmConductor, {}, {n, k, film}, {thickness});
+  m.tree.nodes.back().params.resize(7);
+  m.numbers.insert(m.numbers.end(), wavelength.s.v.begin(), wavelength.s.v.end());
+  m.numbers.insert(m.numbers.end(), {roughness, 0.0});
+  return m;
+}
+inline Material film_dielectric(Value ior, Value film, double thickness, Value wavelength) {
+  Material m = node(Lobe::FilmDielectric, {}, {ior, film}, {thickness});
+  m.tree.nodes.back().params.resize(4);
+  m.numbers.insert(m.numbers.end(), wavelength.s.v.begin(), wavelength.s.v.end());
+  return m;
+}
+inline Material coat(Material top, Material base, double thickness, Value absorption, Value ior) {
+  Material m = node(Lobe::Coat, {top, base}, {}, {thickness});
+  m.tree.nodes.back().params.resize(3);
+  m.numbers.insert(m.numbers.end(), absorption.s.v.begin(), absorption.s.v.end());
+  m.numbers.insert(m.numbers.end(), ior.s.v.begin(), ior.s.v.end());
+  return m;
+}
 inline Material microfacet(Value c, double roughness, double anisotropy = 0) {
   return node(Lobe::Microfacet, {}, {c}, {roughness, anisotropy});
+}
+inline Material beckmann(Value c, double roughness, double anisotropy = 0) {
+  return node(Lobe::Beckmann, {}, {c}, {roughness, anisotropy});
 }
 inline Material conductor(Value n, Value k, double roughness = 0, double anisotropy = 0) {
   return node(Lobe::Conductor, {}, {n, k}, {roughness, anisotropy});
@@ -76,6 +104,8 @@ inline Material dielectric(Value ior, double roughness = 0, Value r = 1, Value t
   return m;
 }
 inline Material isotropic() { return node(Lobe::Isotropic, {}, {}); }
+inline Material rayleigh_phase() { return node(Lobe::RayleighPhase, {}, {}); }
+inline Material draine(double g, double a) { return node(Lobe::Draine, {}, {}, {g, a}); }
 inline Material henyey_greenstein(double g) { return node(Lobe::HenyeyGreenstein, {}, {}, {g}); }
 inline Material mix(Material a, Material b, Value t) { return node(Lobe::Mix, {a, b}, {t}); }
 inline Material fresnel_mix(Material base, Material coat, Value ior) {

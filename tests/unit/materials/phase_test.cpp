@@ -23,6 +23,12 @@ TEST_CASE("phase functions: samples, total, mean cosine, symmetry") {
       {henyey_greenstein(0.6), 1, 0.6},
       {henyey_greenstein(-0.8), 1, -0.8},
       {henyey_greenstein(0.99), 1, 0.99},
+      {rayleigh_phase(), 1, 0},
+      {draine(0, 0.5), 1, 0},
+      // <c> of Draine's: g (1 + a (3 + 2 g^2) / 5) / (1 + a (1 + 2 g^2) / 3)
+      {draine(0.03, 1), 1, 0.03 * (1 + 3.0018 / 5) / (1 + 1.0018 / 3)},
+      {draine(0.7, 0.8), 1, 0.7 * (1 + 0.8 * 3.98 / 5) / (1 + 0.8 * 1.98 / 3)},
+      {draine(-0.9, 1), 1, -0.9 * (1 + 4.62 / 5) / (1 + 2.62 / 3)},
       {mix(henyey_greenstein(0.7), henyey_greenstein(-0.5), ramp(0.25, 0.75)), 1, 0.4},
       {add(scale(isotropic(), 0.3), scale(henyey_greenstein(0.5), ramp(0.6, 0.1))), 0.9, 0.3 / 0.9},
   };

@@ -2,6 +2,8 @@
 // Samples against densities: chi-square, weights, and the mean weight against quadrature.
 #include <doctest/doctest.h>
 
+#include <cstdlib>
+
 #include "tests/stats/chi_square.h"
 #include "tests/unit/materials/cases.h"
 
@@ -14,9 +16,14 @@ TEST_CASE("samples follow the density") {
   const auto cases = smooth_cases();
   const int tests = int(cases.size() * std::size(kDegrees));
   const double level = stats::sidak(0.01, tests);
+  // `./run nightly` draws 10^6; MMS_STATS_MODEL takes one model, by the start of its name.
+  const char* samples = std::getenv("MMS_STATS_SAMPLES");
+  const char* only = std::getenv("MMS_STATS_MODEL");
+  const int count = samples ? std::atoi(samples) : stats::ChiSquareTest{}.count;
   double worst = 1;
   std::uint64_t seed = 0;
   for (const Case& c : cases) {
+    if (only && !c.name.starts_with(only)) continue;
     const materials::Layout layout = c.material.layout();
     const auto p32 = c.material.params<float>();
     const auto p64 = c.material.params<double>();
@@ -33,6 +40,7 @@ TEST_CASE("samples follow the density") {
              return normalize(Vec3d(s->wi));
            },
            .pdf = [&](Vec3d wi) { return exact.pdf(wo_exact, wi, Mode::Radiance)[0]; },
+           .count = count,
            .seed = ++seed});
       worst = std::min(worst, r.p_value);
       CHECK_MESSAGE(r.passed(level), c.name, " at ", degrees, ": ", r.report());
@@ -56,6 +64,7 @@ TEST_CASE("a sample reports what eval and pdf say, and its mean weight is the al
       // With wi drawn uniformly over projected solid angle of both sides, an estimate that does not
       // use the model's own sampling at all.
       stats::Moments drawn, reference;
+      double largest = 0;
       int wrong = 0;
       for (int i = 0; i < 20000; ++i) {
         const double u = random.next(), u1 = random.next(), u2 = random.next();
@@ -69,10 +78,14 @@ TEST_CASE("a sample reports what eval and pdf say, and its mean weight is the al
         }
         Vec3d wi = square_to_cosine_hemisphere(u1, u2);
         if (u < 0.5) wi.z = -wi.z;
-        reference.add(2 * kPi<double> * bsdf.eval(wo, wi, Mode::Importance)[0]);
+        const double weight = 2 * kPi<double> * bsdf.eval(wo, wi, Mode::Importance)[0];
+        largest = std::max(largest, weight);
+        reference.add(weight);
       }
       CHECK_MESSAGE(wrong == 0, c.name, " at ", degrees);
-      // Lobes far narrower than the reference's samples are left to the chi-square test.
+      // Lobes far narrower than the reference's samples are left to the chi-square test: where one
+      // sample of 20 000 is 50 times the mean, the rest does not tell how far it is off.
+      if (largest > 50 * reference.mean) continue;
       if (reference.standard_error() > 0.03 * reference.mean || reference.mean == 0) continue;
       const double e = std::hypot(drawn.standard_error(), reference.standard_error());
       const double z = e > 0 ? (drawn.mean - reference.mean) / e : 0;

@@ -18,12 +18,12 @@ TEST_CASE("tails of distributions") {
 }
 
 TEST_CASE("quadrature") {
-  CHECK(stats::integrate<8>([](double x) { return std::pow(x, 15); }, 0, 1) ==
+  CHECK(integrate<8>([](double x) { return std::pow(x, 15); }, 0, 1) ==
         doctest::Approx(1.0 / 16).epsilon(1e-13));
-  CHECK(stats::integrate_adaptive([](double x) { return 1 / (1e-4 + x * x); }, -1, 1, 1e-9) ==
+  CHECK(integrate_adaptive([](double x) { return 1 / (1e-4 + x * x); }, -1, 1, 1e-9) ==
         doctest::Approx(200 * std::atan(100.0)).epsilon(1e-10));
-  CHECK(stats::integrate_adaptive([](double x, double y) { return std::exp(x + y); },
-                                  stats::Rectangle{0, 1, 0, 1}, 1e-12) ==
+  CHECK(integrate_adaptive([](double x, double y) { return std::exp(x + y); },
+                           Rectangle{0, 1, 0, 1}, 1e-12) ==
         doctest::Approx(std::pow(std::exp(1.0) - 1, 2)).epsilon(1e-11));
 }
 

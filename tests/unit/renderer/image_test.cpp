@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "renderer/render.h"
+#include "renderer/picture.h"
 #include "renderer/scene.h"
 
 using namespace mms::renderer;
@@ -40,7 +40,7 @@ TEST_CASE("EXR keeps linear values and no part file stays") {
   const std::string path = folder / "a.exr";
   REQUIRE(bool(check_writable(path)));
   CHECK(folder.files() == 0);
-  REQUIRE(bool(write_image(path, ramp())));
+  REQUIRE(bool(write_picture(path, {ramp()})));
   CHECK(folder.files() == 1);
   const auto back = load_environment(path);
   REQUIRE(bool(back));
@@ -54,7 +54,7 @@ TEST_CASE("EXR keeps linear values and no part file stays") {
 TEST_CASE("PNG is tone mapped: grey stays grey, brighter stays brighter, black is black") {
   const Folder folder;
   const std::string path = folder / "a.png";
-  REQUIRE(bool(write_image(path, ramp())));
+  REQUIRE(bool(write_picture(path, {ramp()})));
   const auto back = load_environment(path);
   REQUIRE(bool(back));
   CHECK(back->rgb[0][1] == 0);
@@ -74,7 +74,7 @@ TEST_CASE("what cannot be written is known before, and says what can be") {
   CHECK(check_writable(folder / "none/a.png").error().what.find("no folder") != std::string::npos);
   fs::create_directory(folder.path / "d.png");
   CHECK(check_writable(folder / "d.png").error().what.find("folder") != std::string::npos);
-  CHECK_FALSE(bool(write_image(folder / "a.gif", ramp())));
+  CHECK_FALSE(bool(write_picture(folder / "a.gif", {ramp()})));
   CHECK(folder.files() == 1);
 }
 
@@ -84,6 +84,6 @@ TEST_CASE("a picture that is there is only replaced by a whole one") {
   std::ofstream(path) << "old";
   REQUIRE(bool(check_writable(path)));
   CHECK(fs::file_size(path) == 3);
-  REQUIRE(bool(write_image(path, ramp())));
+  REQUIRE(bool(write_picture(path, {ramp()})));
   CHECK(fs::file_size(path) > 3);
 }

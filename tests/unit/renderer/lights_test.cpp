@@ -114,7 +114,7 @@ TEST_CASE("with several lights, few or many, choices and places still integrate 
   std::vector<double> radiance{1.0};
   int more = 0;
   SUBCASE("few: weighed at each point") { more = 5; }
-  SUBCASE("many: weighed once") { more = 40; }
+  SUBCASE("many: in a tree") { more = 40; }
   for (int i = 0; i < more; ++i) {
     Object o;
     o.shape = Disc{{double(i + 2), 1, 0}, Frame<double>::around({-1, 0, 0}), 0.1};

@@ -8,63 +8,11 @@
 #include <limits>
 
 #include "base/warp.h"
-#include "hand_program.h"
-#include "renderer/scene.h"
+#include "scenes.h"
 
 using namespace mms;
 using namespace mms::renderer;
 using namespace mms::renderer::test;
-
-namespace {
-
-Scene scene_of(const vm::Program& program, std::string_view text) {
-  Result<SceneData> data = parse_scene(program, {}, text, "test", "");
-  REQUIRE_MESSAGE(bool(data), (data ? "" : data.error().where + ": " + data.error().what));
-  return Scene(std::make_shared<const SceneData>(std::move(*data)));
-}
-
-Scene builtin(const vm::Program& program, const std::string& name) {
-  Result<Scene> s = load_scene(program, {name, "", ""});
-  REQUIRE(bool(s));
-  return *s;
-}
-
-RenderOptions options(int side, int samples, int threads = 2) {
-  RenderOptions o;
-  o.width = o.height = side;
-  o.samples = samples;
-  o.threads = threads;
-  o.seed = 11;
-  o.filter = FilterShape::Box;  // neighbours share no samples: the error of a mean is known
-  return o;
-}
-
-Rendered run(const vm::Program& p, const Scene& s, const RenderOptions& o) {
-  Result<Rendered> r = render(p, s, o);
-  REQUIRE_MESSAGE(bool(r), (r ? "" : r.error().where + ": " + r.error().what));
-  CHECK(r->report.dropped.count() == 0);
-  return std::move(*r);
-}
-
-/// Four standard errors: a false alarm in 16000 renders with other seeds; the seed is fixed.
-void check_mean(const Film& film, double expected) {
-  const Mean m = mean_luminance(film);
-  INFO("mean ", m.value, " +- ", m.error, ", expected ", expected);
-  CHECK(std::abs(m.value - expected) < 4 * m.error + 1e-6 * expected);
-}
-
-/// A patch of matte ground around the origin, seen from straight above: every path of one
-/// scattering. `light` is more objects.
-std::string patch(const std::string& light, const std::string& environment = "0") {
-  return R"({"camera": {"position": [0, 1.2, 0], "target": [0, 0, 0], "up": [0, 0, -1], "fov": 0.01},
-    "environment": {"constant": )" +
-         environment + R"(},
-    "materials": {"lamp": {"matte": 0, "emission": 2}},
-    "objects": [{"quad": {"corner": [-1, 0, 1], "u": [2, 0, 0], "v": [0, 0, -2]}, "test": true})" +
-         light + "]}";
-}
-
-}  // namespace
 
 TEST_CASE(
     "the same seed gives the same picture bit for bit on 1, 2 and 3 threads; another does not") {
@@ -119,7 +67,7 @@ TEST_CASE("furnace: a cloud that only scatters vanishes, homogeneous and by delt
   HandProgram h;
   vm::Descriptor& d = h.volume("x", 1.5, 0);
   SUBCASE("closed form") {}
-  SUBCASE("delta tracking, half of the collisions fictitious") {
+  SUBCASE("delta tracking") {
     d.outputs[int(vm::Output::Scattering)].variables = 1u << int(vm::Variable::Position);
     for (vm::Entry* e : HandProgram::entries(d)) e->bound = h.real(3);
   }

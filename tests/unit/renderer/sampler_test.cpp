@@ -8,18 +8,20 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/sanitized.h"
+
 using namespace mms::renderer;
 
 namespace {
 
 /// Points in each elementary interval of sides 2^-d[0] x ... : all counts, by brute force.
 std::pair<int, int> interval_counts(int m, std::array<int, 4> d, std::uint64_t first,
-                                    bool scrambled) {
+                                    bool scrambled, decltype(&nx4) sequence = nx4) {
   std::vector<int> count(std::size_t(1) << (d[0] + d[1] + d[2] + d[3]));
   for (std::uint64_t n = first; n < first + (1u << m); ++n) {
     std::size_t cell = 0;
     for (int k = 0; k < 4; ++k) {
-      std::uint32_t x = nx4(n, k);
+      std::uint32_t x = sequence(n, k);
       if (scrambled) x = owen_scramble(x, 77u + std::uint32_t(k));
       cell = (cell << d[k]) | (d[k] > 0 ? x >> (32 - d[k]) : 0);
     }
@@ -49,6 +51,17 @@ TEST_CASE(
         CHECK(low == 2);
         CHECK(high == 2);
       });
+}
+
+TEST_CASE("Sobol's is a (3, 4)-sequence, and its first two coordinates a (0, 2)-sequence") {
+  for (int m = 3; m <= 9; ++m)
+    for (const std::uint64_t block : {0, 1, 5}) {
+      compositions(m - 3, [&](std::array<int, 4> d) {
+        CHECK(interval_counts(m, d, block << m, false, sobol) == std::pair(8, 8));
+      });
+      for (int a = 0; a <= m; ++a)
+        CHECK(interval_counts(m, {a, m - a, 0, 0}, block << m, true, sobol) == std::pair(1, 1));
+    }
 }
 
 TEST_CASE("scrambling keeps the elementary intervals") {
@@ -112,4 +125,75 @@ TEST_CASE("a sample replays alone, and seeds, pixels and samples differ") {
   CHECK(a(7) != Sampler(1, 3, 2, 4)(7));
   CHECK(a(7) != Sampler(1, 2, 3, 5)(7));
   CHECK(a.hashed(0, 1) != a.hashed(1, 0));
+}
+
+TEST_CASE("every generator is a function into [0, 1) of seed, pixel, sample and coordinate") {
+  for (int g = 0; g < int(generators().size()); ++g) {
+    CAPTURE(generators()[std::size_t(g)].name);
+    CHECK(generator_named(generators()[std::size_t(g)].name) == Generator(g));
+    double sum = 0;
+    constexpr int n = 4096;
+    for (int i = 0; i < n; ++i)
+      for (int coordinate = 0; coordinate < 5; ++coordinate) {
+        const float u = Sampler(1, 2, 3, std::uint64_t(i), Generator(g))(coordinate);
+        REQUIRE(u >= 0);
+        REQUIRE(u < 1);
+        CHECK(u == Sampler(1, 2, 3, std::uint64_t(i), Generator(g))(coordinate));
+        sum += u;
+      }
+    // The mean of 5 n numbers of variance 1 / 12: five deviations.
+    CHECK(std::abs(sum / (5 * n) - 0.5) < 5 / std::sqrt(12.0 * 5 * n));
+  }
+}
+
+namespace {
+
+/// Slope of log error over log samples, least squares over 2^first to 2^last samples; the error is
+/// the root mean square over independent pixels of an integral over [-1, 1]^4 that is 0, as a mean.
+template <class F>
+double slope(Generator generator, int first, int last, F f) {
+  constexpr int kPixels = mms::kSanitized ? 8 : 32;
+  std::vector<double> squares(std::size_t(last) + 1, 0.0);
+  for (int pixel = 0; pixel < kPixels; ++pixel) {
+    double sum = 0;
+    for (int m = first, i = 0; m <= last; ++m) {
+      for (; i < 1 << m; ++i) {
+        const Sampler s(5, pixel, 0, std::uint64_t(i), generator);
+        const auto x = [&](int coordinate) { return 2 * double(s(coordinate)) - 1 + 0x1p-24; };
+        sum += f(x(0), x(1), x(2), x(3));
+      }
+      squares[std::size_t(m)] += std::pow(sum / (1 << m), 2);
+    }
+  }
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (int m = first; m <= last; ++m) {
+    const double y = 0.5 * std::log2(squares[std::size_t(m)] / kPixels);
+    sx += m, sy += y, sxx += m * m, sxy += m * y;
+  }
+  const double n = last - first + 1;
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+}  // namespace
+
+TEST_CASE("thesis Figure 3.3: a smooth integral in 2D and one with jumps in 4D, slopes of error") {
+  const auto smooth = [](double x, double y, double, double) { return std::atan(x + y); };
+  const auto jumps = [](double x, double y, double z, double w) {
+    return std::copysign(std::exp(x * x + y * y + z * z + w * w), x * y * z * w);
+  };
+  const int last = mms::kSanitized ? 10 : 14;
+  const double random2 = slope(Generator::Random, 4, last, smooth);
+  const double random4 = slope(Generator::Random, 4, last, jumps);
+  // 32 pixels leave an error's logarithm within 1 / sqrt(64) = 18 % of a factor e: 0.1 of slope.
+  CHECK(std::abs(random2 + 0.5) < 0.1);
+  CHECK(std::abs(random4 + 0.5) < 0.1);
+  for (const Generator g : {Generator::Niederreiter, Generator::Sobol}) {
+    const double smooth_slope = slope(g, 4, last, smooth);
+    const double jumps_slope = slope(g, 7, last, jumps);
+    INFO(generators()[std::size_t(g)].name, ": ", smooth_slope, " and ", jumps_slope);
+    // Owen 1997: -3/2 for what is smooth, up to logarithms. The jumps lie on edges of elementary
+    // intervals, so they keep it once there are enough points for four coordinates.
+    CHECK(smooth_slope < -1.25);
+    CHECK(jumps_slope < -0.9);
+  }
 }

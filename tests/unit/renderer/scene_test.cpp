@@ -8,6 +8,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include <fmt/format.h>
+
+#include "base/warp.h"
 #include "hand_program.h"
 
 using namespace mms;
@@ -57,7 +60,7 @@ TEST_CASE("every mistake names its place and what to try") {
   CHECK(holds(e.what, "expected 3 numbers, found 2"));
 
   e = error_of(R"({"objects": [{"surface": "wood"}]})");
-  CHECK(holds(e.what, "one of `sphere`, `quad`, `disc` and `mesh`"));
+  CHECK(holds(e.what, "one of `sphere`, `quad`, `disc`, `box`, `lathe`, `mesh`"));
 
   e = error_of(R"({"objects": []})");
   CHECK(holds(e.what, "no object"));
@@ -170,4 +173,100 @@ TEST_CASE("meshes come from OBJ and PLY") {
   CHECK_FALSE(bool(load_mesh((folder / "none.obj").string(), {})));
   CHECK(holds(load_mesh("/etc/hostname", {}).error().hint, ".obj"));
   std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("boxes and written meshes: turned, scaled and moved like all, their mistakes told") {
+  HandProgram h;
+  h.matte("wood", 0.5);
+  const auto objects = [](const std::string& o) {
+    return R"({"objects": [{"surface": "wood", "scale": 2, "rotate": [0, 90, 0], "translate": [0, 1, 0],)" +
+           o + "}]}";
+  };
+  Result<SceneData> r =
+      parse_scene(h.program, {}, objects(R"("box": {"size": [1, 2, 6]})"), "s", "");
+  REQUIRE(bool(r));
+  Bounds b = bounds(r->objects[0].shape);
+  CHECK(b.high.x == doctest::Approx(6));  // z turned to x
+  CHECK(b.high.y == doctest::Approx(3));
+  CHECK(b.low.z == doctest::Approx(-1));
+
+  const std::string corners = R"("mesh": {"positions": [[0, 0, 0], [0, 0, 1], [0, 1, 0]],)";
+  r = parse_scene(h.program, {}, objects(corners + R"("triangles": [[0, 1, 2]],
+      "normals": [[1, 0, 0], [0, 0, 2], [1, 0, 0]], "uvs": [[0, 0], [0.5, 0], [0, 1]]})"),
+                  "s", "");
+  REQUIRE_MESSAGE(bool(r), (r ? "" : r.error().where + r.error().what));
+  const Mesh& m = std::get<Mesh>(r->objects[0].shape);
+  CHECK(m.positions[1].x == doctest::Approx(2));
+  CHECK(m.positions[1].y == doctest::Approx(1));
+  CHECK(m.normals[1].x == doctest::Approx(1));
+  CHECK(m.uvs[1][0] == 0.5f);
+
+  CHECK(error_of(objects(corners + R"("triangles": [[0, 1, 3]]})")).where ==
+        "s.json: objects[0].mesh.triangles[0][2]");
+  CHECK(holds(error_of(objects(corners + R"("triangles": [[0, 1, 1]]})")).what, "without area"));
+  CHECK(holds(error_of(objects(corners + R"("triangles": []})")).what, "no triangle"));
+  CHECK(holds(
+      error_of(objects(corners + R"("triangles": [[0, 1, 2]], "normals": [[1, 0, 0]]})")).what,
+      "1 entries for 3 positions"));
+  CHECK(error_of(objects(R"("box": {"size": [1, 0, 1]})")).where ==
+        "s.json: objects[0].box.size[1]");
+}
+
+TEST_CASE("a lathe turns a profile: closed, smooth where it is flat, sharp where it is not") {
+  HandProgram h;
+  h.matte("wood", 0.5);
+  std::string arc;
+  for (int i = 0; i <= 64; ++i) {
+    const double t = kPi<double> * i / 64;
+    arc += fmt::format("{}[{}, {}]", i > 0 ? ", " : "", i == 64 ? 0 : std::sin(t), -std::cos(t));
+  }
+  const auto turned = [&](const std::string& profile) {
+    Result<SceneData> r = parse_scene(
+        h.program, {},
+        R"({"objects": [{"surface": "wood", "lathe": {"profile": [)" + profile + "]}}]}", "s", "");
+    REQUIRE_MESSAGE(bool(r), (r ? "" : r.error().where + r.error().what));
+    return std::get<Mesh>(r->objects[0].shape);
+  };
+  const Mesh ball = turned(arc);
+  // Chords of 1/64 and 2/128 of a half turn: short by their angle squared over 24, twice.
+  CHECK(area(Shape(ball)) == doctest::Approx(4 * kPi<double>).epsilon(5e-4));
+  CHECK(contains(Shape(ball), {0.5, 0.3, -0.4}));
+  CHECK_FALSE(contains(Shape(ball), {0.9, 0.6, 0}));
+  for (std::uint32_t t = 0; t < ball.triangles.size(); ++t) {
+    const SurfacePoint p = surface_at(ball, t, 0.3, 0.3);
+    CHECK(dot(p.geometric_normal, normalize(p.position)) > 0.998);
+    CHECK(dot(p.normal, normalize(p.position)) > 0.9995);
+  }
+  const Mesh can = turned("[0, 0], [1, 0], [1, 2], [0, 2]");
+  CHECK(area(Shape(can)) == doctest::Approx(6 * kPi<double>).epsilon(2e-3));
+  for (std::uint32_t t = 0; t < can.triangles.size(); ++t) {
+    const SurfacePoint p = surface_at(can, t, 0.3, 0.3);
+    const double upright = std::abs(p.normal.y);
+    CHECK((upright < 1e-6 || upright > 1 - 1e-6));
+    CHECK(dot(p.normal, p.geometric_normal) > 0.999);
+  }
+  CHECK(
+      holds(error_of(R"({"objects": [{"lathe": {"profile": [[1, 0]]}, "surface": "wood"}]})").what,
+            "at least two"));
+  CHECK(holds(error_of(R"({"objects": [{"lathe": {"profile": [[1, 0], [-1, 1]]},
+                                        "surface": "wood"}]})")
+                  .what,
+              "below 0"));
+}
+
+TEST_CASE("a sheet's objects wear the script's surfaces in turn, from the chosen one on") {
+  HandProgram h;
+  h.matte("a", 0.1);
+  h.matte("b", 0.2);
+  h.matte("c", 0.3);
+  const auto worn = [&](const std::string& chosen) {
+    const Result<Scene> s = load_scene(h.program, {"grid", chosen, ""});
+    REQUIRE(bool(s));
+    std::string names;
+    for (const Object& o : s->data().objects)
+      if (o.test) names += s->data().surfaces[std::size_t(o.surface)].name;
+    return names;
+  };
+  CHECK(worn("") == "abcabcabcabc");
+  CHECK(worn("b") == "bcabcabcabca");
 }

@@ -4,12 +4,8 @@
 
 #include <cmath>
 
-#include "hand_program.h"
-#include "lang/link.h"
-#include "lang/parser.h"
 #include "renderer/enclosure.h"
-#include "renderer/scene.h"
-#include "stdlib/stdlib.h"
+#include "scenes.h"
 
 using namespace mms;
 using namespace mms::renderer;
@@ -17,39 +13,12 @@ using namespace mms::renderer::test;
 
 namespace {
 
-vm::Program compile(const std::string& text) {
-  std::vector<lang::Library::Module> modules;
-  for (const stdlib::Module& m : stdlib::modules()) modules.push_back({m.name, m.text});
-  const lang::Library library{stdlib::builtins(), modules};
-  lang::Diagnostics diagnostics;
-  const lang::SourcePtr source = lang::make_source("t.mms", text);
-  std::vector<lang::Graph> graphs;
-  graphs.push_back(lang::parse(source, diagnostics));
-  auto linked = lang::link(graphs, library, {}, diagnostics);
-  REQUIRE_MESSAGE(linked.has_value(), lang::render(diagnostics));
-  return std::move(linked->program);
-}
-
-Scene scene_of(const vm::Program& p, const std::string& text) {
-  Result<SceneData> data = parse_scene(p, {}, text, "test", "");
-  REQUIRE_MESSAGE(bool(data), (data ? "" : data.error().where + ": " + data.error().what));
-  return Scene(std::make_shared<const SceneData>(std::move(*data)));
-}
-
 /// A wall that fills the view, in even light.
 const std::string kWall = R"({"camera": {"position": [0, 0, 3], "target": [0, 0, 0], "fov": 30},
   "environment": {"constant": 1},
   "objects": [{"quad": {"corner": [-1, -1, 0], "u": [2, 0, 0], "v": [0, 2, 0]}, "test": true}]})";
 const std::string kBall = R"({"camera": {"position": [0, 0, 5], "target": [0, 0, 0], "fov": 10},
   "environment": {"constant": 1}, "objects": [{"sphere": {}, "test": true}]})";
-
-RenderOptions options(int side, int samples) {
-  RenderOptions o;
-  o.width = o.height = side;
-  o.samples = samples;
-  o.threads = 2;
-  return o;
-}
 
 }  // namespace
 
@@ -155,7 +124,8 @@ TEST_CASE("enclosures of an object's script hold over its own box") {
   const double height = largest_height(p, *p.find(vm::DescriptorForm::Surface, "a"), o);
   CHECK(height >= 0.6);
   CHECK(height < 0.601);
-  const double extinction = largest_extinction(p, *p.find(vm::DescriptorForm::Volume, "a"), o);
+  const double extinction =
+      majorants_of(p, *p.find(vm::DescriptorForm::Volume, "a"), o, 1e30, false).largest();
   CHECK(extinction >= 4);
   CHECK(extinction < 4.01);
 }

@@ -128,3 +128,59 @@ TEST_CASE("crossings keep the nearest, each once, and know when there were more"
   CHECK(c.overflow);
   for (int i = 0; i < c.count; ++i) CHECK(c.hits[i].t == float(i));
 }
+
+TEST_CASE("a turned box is met where six planes are, and its inside is between them") {
+  const Box b{{0.3, -1, 2}, Frame<double>::around(normalize(Vec3d{1, 2, -0.5})), {0.5, 1.5, 2}};
+  const auto depth = [&](Vec3d p) {  // above 0 inside
+    const Vec3d l = b.axes.to_local(p - b.centre);
+    return std::min({b.half.x - std::abs(l.x), b.half.y - std::abs(l.y), b.half.z - std::abs(l.z)});
+  };
+  int met = 0;
+  for (std::uint64_t i = 1; i < 2000; ++i) {
+    const Vec3d o = b.centre + random_direction(i) * 6.0;
+    const Vec3d d = normalize(b.centre + random_direction(i + 5000) * 1.5 - o);
+    const Roots r = intersect(b, o, d, 0, 1e30);
+    double deepest = -1e9;
+    for (int k = 0; k <= 400; ++k) deepest = std::max(deepest, depth(o + d * (0.03 * k)));
+    // A step of the march may miss what is under half of it deep.
+    if (deepest > 0) CHECK(r.count == 2);
+    if (r.count == 0) CHECK(deepest < 0.015);
+    for (int k = 0; k < r.count; ++k) {
+      ++met;
+      const Vec3d at = o + d * r.t[k];
+      CHECK(std::abs(depth(at)) < 1e-12);
+      const SurfacePoint s = surface_at(b, at);
+      CHECK(length(s.position - at) < 1e-12);
+      CHECK(depth(at - s.normal * 1e-6) > 0);
+      CHECK(dot(cross(s.tangent, s.bitangent), s.normal) == doctest::Approx(1));
+      CHECK(dot(s.normal, d) * (k == 0 ? -1 : 1) > 0);
+      const SurfacePoint next = surface_at(b, at + s.tangent * 1e-6);
+      if (dot(next.normal, s.normal) > 0.5)
+        CHECK((next.uv[0] - s.uv[0]) / 1e-6 == doctest::Approx(s.uv_tangent[0]).epsilon(1e-4));
+    }
+    CHECK(contains(b, o) == (depth(o) > 0));
+    CHECK(contains(b, b.centre + random_direction(i) * 0.5) ==
+          (depth(b.centre + random_direction(i) * 0.5) > 0));
+  }
+  CHECK(met > 1000);
+}
+
+TEST_CASE("points drawn of a box are spread evenly over its faces") {
+  const Box b{{}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0.5, 1, 2}};
+  CHECK(area(Shape(b)) == doctest::Approx(2 * (1 * 2 + 2 * 4 + 4 * 1)));
+  const int n = 60000;
+  int faces[3] = {0, 0, 0}, upper = 0, quarter = 0;
+  for (int i = 0; i < n; ++i) {
+    const SurfacePoint s =
+        sample_surface(b, u01(2 * std::uint64_t(i)), u01(2 * std::uint64_t(i) + 1));
+    for (int k = 0; k < 3; ++k) faces[k] += std::abs(s.normal[k]) > 0.5;
+    upper += s.normal.x + s.normal.y + s.normal.z > 0;
+    quarter += s.uv[0] < 0.5 && s.uv[1] < 0.5;
+  }
+  // Binomial: 5 standard deviations, sqrt(60000 p (1 - p)) is at most 123.
+  CHECK(std::abs(faces[0] - n * 8 / 14) < 620);
+  CHECK(std::abs(faces[1] - n * 4 / 14) < 620);
+  CHECK(std::abs(faces[2] - n * 2 / 14) < 620);
+  CHECK(std::abs(upper - n / 2) < 620);
+  CHECK(std::abs(quarter - n / 4) < 620);
+}

@@ -103,9 +103,10 @@ TEST_CASE("both instruction sets give the same bits") {
   for (std::size_t r = 0; r < a.size(); ++r) {
     INFO(a[r].signature);
     REQUIRE(a[r].signature == b[r].signature);
-    const auto in32 = any_arguments<float>(a[r], 4096);
+    const std::size_t lanes = a[r].cost > 3000 ? 256 : 4096;
+    const auto in32 = any_arguments<float>(a[r], lanes);
     CHECK(differing(run<float>(a[r], in32), run<float>(b[r], in32)) == 0);
-    const auto in64 = any_arguments<double>(a[r], 4096);
+    const auto in64 = any_arguments<double>(a[r], lanes);
     CHECK(differing(run<double>(a[r], in64), run<double>(b[r], in64)) == 0);
   }
 }

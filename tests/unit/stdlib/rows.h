@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <random>
 #include <span>
@@ -32,7 +33,7 @@ inline std::string slots(std::string_view type) {
                           : type.starts_with("integer") ? "i"
                           : type.starts_with("logic")   ? "l"
                                                         : "r";
-  const int n = open == type.npos ? 1 : type[open + 1] - '0';
+  const int n = open == type.npos ? 1 : std::atoi(type.data() + open + 1);
   std::string all;
   for (int k = 0; k < n; ++k) all += one;
   return all;

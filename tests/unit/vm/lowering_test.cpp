@@ -134,6 +134,41 @@ TEST_CASE("a lane that is given up after it was moved is reported as itself") {
   }
 }
 
+/// Builtins over the time, over what a builtin made of it, over the point, and in one arm.
+Program timed() {
+  Assembler a;
+  a.function("f", {}, {R, R, R, I, R}, {R});
+  const auto time = [&]() -> Assembler& { return a.input(Variable::Time); };
+  time(), time().real(2).op(Op::MulR).op(Op::CallBuiltin, kSumAndDifference).op(Op::MulR).store(0);
+  a.load(0);
+  a.load(0).real(3).op(Op::CallBuiltin, kSumAndDifference).op(Op::SubR);
+  time().op(Op::PushInput, kX).op(Op::CallBuiltin, kSumAndDifference).op(Op::MulR);
+  time().op(Op::CallBuiltin, kBits);
+  a.op(Op::PushInput, kX).real(0).op(Op::LtR).begin({R});
+  a.load(0).op(Op::PushInput, kY).op(Op::CallBuiltin, kSumAndDifference).op(Op::AddR);
+  a.op(Op::Else);
+  time().real(1).op(Op::CallBuiltin, kSumAndDifference).op(Op::AddR);
+  a.end().ret();
+  return a.program;
+}
+
+TEST_CASE("what depends on the frame alone is computed for a few lanes") {
+  const LoweredCode code = lower(timed());
+  std::vector<bool> uniform;
+  for (const CallSite& site : code.sites) uniform.push_back(site.uniform);
+  CHECK(uniform == std::vector{true, true, false, true, false, true});
+}
+
+TEST_CASE_TEMPLATE("lanes of one time, and of times that differ in a bit", T, float, double) {
+  for (const T other : {T(0), T(-0.0), T(0.75), std::numeric_limits<T>::quiet_NaN()})
+    for (const int odd : {0, 1, 40}) {
+      auto points = spread<T>(41);
+      for (auto& p : points) p[input_index(Variable::Time)].r[0] = odd == 0 ? other : T(0);
+      points[std::size_t(odd)][input_index(Variable::Time)].r[0] = other;
+      check_against_reference(timed(), 0, points);
+    }
+}
+
 /// Blocks of the inputs that a function reads, itself or through calls.
 std::vector<std::uint32_t> inputs(const LoweredCode& code, std::uint32_t function) {
   std::vector<std::uint32_t> blocks;

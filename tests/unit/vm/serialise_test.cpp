@@ -57,6 +57,7 @@ Package everything() {
   d.outputs[5] = {false, true, true, 1u << static_cast<int>(Variable::Wavelength)};
   p.descriptors.push_back(d);
   p.exports.push_back({"all", "spectrum", 0});
+  p.images.push_back({{"wood.tx", "smart", "repeat", "auto", "R", "raw"}, nullptr});
   return {in_library(p),
           {{"a", "real", "doc", "label", "m", "page", {1, 2.5}, {{0, 3}}},
            {"b", "integer", "", "", "", "", {4}, std::nullopt}},
@@ -84,17 +85,18 @@ TEST_CASE("the form is what docs/bytecode.md says, byte by byte") {
   p.program.constants = {{L, 0, -2, 1}};
   const std::vector<std::byte> file = saved(p);
   // Sections in order: instructions, variables, builtins, materials, sources, dependencies, params,
-  // constants, block types, functions, descriptors, exports.
+  // constants, block types, functions, descriptors, exports, images.
   const unsigned char contents[] = {
       0, 0, 0, 0, 0,   0, 0, 0, 0,   0,   0, 0, 0, 0, 0, 0,        // names
       1, 0, 0, 0, 2,   0, 0, 0, 'a', 'b',                          // sources
       0, 0, 0, 0, 0,   0, 0, 0,                                    // dependencies, params
       1, 0, 0, 0, 'l', 0, 0, 0, 0,   0,   0, 0, 0, 0, 0, 0, 0xc0,  // a constant: -2.0 in f64
       1, 0, 0, 0,                                                  // and its integer
-      0, 0, 0, 0, 0,   0, 0, 0, 0,   0,   0, 0, 0, 0, 0, 0};       // the rest
+      0, 0, 0, 0, 0,   0, 0, 0, 0,   0,   0, 0, 0, 0, 0, 0,        // the rest
+      0, 0, 0, 0};
   REQUIRE(file.size() == 24 + sizeof contents);
   CHECK(std::memcmp(file.data() + 24, contents, sizeof contents) == 0);
-  const unsigned char header[] = {0x89, 'm', 'm', 's', '\r', '\n', 0x1a, '\n', 1, 0, 0, 0};
+  const unsigned char header[] = {0x89, 'm', 'm', 's', '\r', '\n', 0x1a, '\n', 2, 0, 0, 0};
   CHECK(std::memcmp(file.data(), header, sizeof header) == 0);
   const unsigned char length[] = {24 + sizeof contents, 0, 0, 0, 0, 0, 0, 0};
   CHECK(std::memcmp(file.data() + 16, length, sizeof length) == 0);
@@ -280,14 +282,14 @@ TEST_CASE("a material with other arguments than its row is refused") {
 TEST_CASE("another format is refused with both numbers") {
   std::vector<std::byte> file = saved(everything());
   file[8] = std::byte(kFormat + 1);
-  CHECK(refusal(file) == "has format 2; this build reads format 1");
+  CHECK(refusal(file) == "has format 3; this build reads format 2");
 }
 
 TEST_CASE("a count is believed only as far as the file goes") {
-  for (std::size_t section = 0; section < 12; ++section) {
+  for (std::size_t section = 0; section < 13; ++section) {
     CAPTURE(section);
     std::vector<std::byte> file = saved({});
-    REQUIRE(file.size() == kHeaderBytes + 12 * 4);
+    REQUIRE(file.size() == kHeaderBytes + 13 * 4);
     for (std::size_t k = 0; k < 4; ++k) file[kHeaderBytes + 4 * section + k] = std::byte(0xff);
     seal(file);
     CHECK(refusal(file) == "a count is larger than the file");

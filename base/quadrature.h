@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace mms::stats {
+namespace mms {
 
 /// Nodes and weights on [0, 1], by Newton's method on the Legendre polynomial.
 template <int N>
@@ -91,4 +91,4 @@ double integrate_adaptive(F&& f, const Rectangle& r, double tolerance, int depth
   return go(go, r, rule(r), tolerance, depth);
 }
 
-}  // namespace mms::stats
+}  // namespace mms

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Images for scripts, wherever they are linked. What reads files is a module of its own: it is
+/// loaded when the first image is named, for loading OpenImageIO takes longer than linking a
+/// script.
+
+#include <memory>
+
+#include "vm/images.h"
+
+namespace mms::api {
+
+/// Megabytes of decoded tiles that images may take together.
+inline constexpr double kImageMegabytes = 1024;
+
+class ImageLibrary final : public vm::ImageSource {
+ public:
+  explicit ImageLibrary(double megabytes = kImageMegabytes) : megabytes_(megabytes) {}
+  Result<std::shared_ptr<const vm::Image>> open(const vm::ImageUse& use) override;
+
+ private:
+  double megabytes_;
+  std::unique_ptr<vm::ImageSource> source_;
+};
+
+}  // namespace mms::api

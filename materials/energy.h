@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// What microfacets lose to further bounces, from tables that are computed when the project is
+/// built (materials/tables/), and the lobes that give it back. Facets that are mirrors come first,
+/// those of a dielectric, which also transmit, after them.
+///
+/// The share that single scattering by lossless facets loses is l(w) = 1 - E(w); its mean over the
+/// hemisphere is m = 1/pi int l |w.z| dw. Given back as l(wo) l(wi) / (pi m) (Kulla and Conty
+/// 2017), it makes the albedo 1, is symmetric and is smooth.
+
+#include <cmath>
+#include <numbers>
+
+#include "base/vec.h"
+#include "materials/spline.h"
+
+namespace mms::materials {
+
+/// l over direction and width, for one distribution of normals.
+struct FacetTables {
+  const float* loss;            ///< [alpha][direction], isotropic
+  const float* mean;            ///< [alpha], isotropic, over `mean_unit`
+  const float* stretched;       ///< [alpha][aspect][azimuth][direction]
+  const float* stretched_mean;  ///< [alpha][aspect]
+};
+extern const FacetTables kGgxTables, kBeckmannTables;
+
+/// The same of isotropic GGX facets of a lossless dielectric, reflection and refraction together:
+/// [0] where the index rises on the far side, [1] where it falls.
+struct InterfaceTables {
+  const float* loss[2];  ///< [alpha][index][direction]
+  const float* mean[2];  ///< [alpha][index], over `mean_unit`
+};
+extern const InterfaceTables kGgxInterface;
+
+/// How directions and widths are laid out over [0, 1] along the axes of the tables.
+namespace axes {
+
+inline constexpr double kMaxStretched = 3.2;  ///< the widest alpha, at full anisotropy
+inline constexpr double kMinMeanAlpha = 1e-5;
+
+inline constexpr int kAlpha = 65, kDirection = 65, kMean = 193;
+inline constexpr int kStretchedAlpha = 14, kAspect = 6, kAzimuth = 6, kStretchedDirection = 21;
+inline constexpr int kStretchedMean = 65, kMeanAspect = 12;
+inline constexpr int kInterfaceAlpha = 21, kIndex = 23, kInterfaceDirection = 61;
+inline constexpr int kInterfaceMean = 65;
+
+/// Of a direction of |cosine| `z` and tangential length `s`; fine where z is near 0 or `width` s.
+template <class R>
+inline R direction(R z, R s, R width) {
+  const R tau = s * width;
+  if (!(tau > 0)) return 1;
+  const R l = std::sqrt(z * z + tau * tau);
+  return std::atan(std::sqrt(z * (l + z)) / tau) * (2 / std::numbers::pi_v<R>);
+}
+
+/// The scale of directions where masking sets in.
+template <class R>
+inline R width(R alpha) {
+  return alpha / (1 + alpha * alpha);
+}
+
+template <class R>
+inline R alpha(R a, R largest) {
+  return std::sqrt(a / largest);
+}
+
+/// For means, which fall as alpha^2 ln(1 / alpha).
+template <class R>
+inline R log_alpha(R a, R largest) {
+  return std::log(a / R(kMinMeanAlpha)) / std::log(largest / R(kMinMeanAlpha));
+}
+
+/// Of the quotient of the wider and the narrower alpha, from 1 to 10.
+template <class R>
+inline R aspect(R quotient) {
+  return std::log(quotient) / std::numbers::ln10_v<R>;
+}
+
+/// The same for an interface, whose critical angle may be anywhere: two parts `direction`, one
+/// angle.
+template <class R>
+inline R interface_direction(R z, R s, R width) {
+  return (2 * direction(z, s, width) + std::atan2(z, s) * (2 / std::numbers::pi_v<R>)) / 3;
+}
+
+/// Of the relative index `eta`: 0 at 1, towards 1 for 0 and infinity.
+template <class R>
+inline R index(R eta) {
+  return std::sqrt(std::abs(eta - 1) / (eta + 1));
+}
+
+}  // namespace axes
+
+/// What a mean loss of width alpha is measured in.
+template <class R>
+inline R mean_unit(R alpha2) {
+  return alpha2 * std::log1p(1 / alpha2);
+}
+
+/// The loss of one surface. `ax`, `ay` > 0.
+template <class R>
+struct FacetLoss {
+  const FacetTables* tables;
+  R ax, ay;
+
+  bool isotropic() const { return ax == ay; }
+
+  /// l(w) in [0, 1].
+  R at(Vec3<R> w) const {
+    const R z = std::abs(w.z);
+    if (isotropic()) {
+      const R s = std::sqrt(w.x * w.x + w.y * w.y);
+      const auto d = Stencil<R>::at(axes::direction(z, s, axes::width(ax)), axes::kDirection);
+      const auto a = Stencil<R>::at(axes::alpha(ax, R(1)), axes::kAlpha);
+      return clamp01(interpolate(tables->loss, a, coefficients(axes::kDirection), d));
+    }
+    // Along the wider axis.
+    const R wide = std::max(ax, ay), narrow = std::min(ax, ay);
+    const R x = wide * (ax < ay ? w.y : w.x), y = narrow * (ax < ay ? w.x : w.y);
+    const R t2 = x * x + y * y;
+    using namespace axes;
+    const auto d =
+        Stencil<R>::at(direction(z, std::sqrt(t2), 1 / (1 + wide * wide)), kStretchedDirection);
+    const auto c = Stencil<R>::at(t2 > 0 ? x * x / t2 : R(1), kAzimuth);
+    const auto q = Stencil<R>::at(aspect(wide / narrow), kAspect);
+    const auto a = Stencil<R>::at(alpha(wide, R(kMaxStretched)), kStretchedAlpha);
+    constexpr int n2 = coefficients(kStretchedDirection), n1 = n2 * coefficients(kAzimuth),
+                  n0 = n1 * coefficients(kAspect);
+    return clamp01(interpolate(tables->stretched, a, n0, q, n1, c, n2, d));
+  }
+
+  /// m in (0, 1).
+  R mean() const {
+    using namespace axes;
+    const R unit = mean_unit(ax * ay);
+    if (isotropic())
+      return unit * interpolate(tables->mean, Stencil<R>::at(log_alpha(ax, R(1)), kMean));
+    const R wide = std::max(ax, ay), narrow = std::min(ax, ay);
+    const auto a = Stencil<R>::at(log_alpha(wide, R(kMaxStretched)), kStretchedMean);
+    const auto q = Stencil<R>::at(aspect(wide / narrow), kMeanAspect);
+    return unit * interpolate(tables->stretched_mean, a, coefficients(kMeanAspect), q);
+  }
+
+ private:
+  static R clamp01(R x) { return x > 0 ? std::min(x, R(1)) : R(0); }
+};
+
+/// The loss of a rough dielectric of relative index `eta` (far side over near side).
+template <class R>
+struct InterfaceLoss {
+  R alpha, eta;
+  const InterfaceTables* tables = &kGgxInterface;
+
+  /// l(w) in [0, 1].
+  R at(Vec3<R> w) const {
+    using namespace axes;
+    const R z = std::abs(w.z), s = std::sqrt(w.x * w.x + w.y * w.y);
+    const auto d = Stencil<R>::at(interface_direction(z, s, width(alpha)), kInterfaceDirection);
+    const auto a = Stencil<R>::at(axes::alpha(alpha, R(1)), kInterfaceAlpha);
+    const auto n = Stencil<R>::at(index(eta), kIndex);
+    constexpr int n1 = coefficients(kInterfaceDirection), n0 = n1 * coefficients(kIndex);
+    const R l = interpolate(tables->loss[eta < 1], a, n0, n, n1, d);
+    return l > 0 ? std::min(l, R(1)) : R(0);
+  }
+
+  /// m in (0, 1).
+  R mean() const {
+    using namespace axes;
+    const auto a = Stencil<R>::at(log_alpha(alpha, R(1)), kInterfaceMean);
+    const auto n = Stencil<R>::at(index(eta), kIndex);
+    return mean_unit(alpha * alpha) *
+           interpolate(tables->mean[eta < 1], a, coefficients(kIndex), n);
+  }
+};
+
+/// How much of what is lost on this side is given back on the far one; the rest on this one. With
+/// l_t(wi) / (pi m_t) as the shape there, the split that is reciprocal.
+template <class R>
+inline R transmitted_share(R mean_here, R mean_there, R eta) {
+  const R there = eta * eta * mean_there;
+  return there / (mean_here + there);
+}
+
+/// How directions of further bounces are drawn: much as they are distributed, in closed form.
+/// The density over projected solid angle is proportional to 1 / (z^2 + alpha^2).
+template <class R>
+struct BounceSampling {
+  R alpha2;
+
+  R pdf(R z) const {
+    return z / (std::numbers::pi_v<R> * std::log1p(1 / alpha2) * (z * z + alpha2));
+  }
+
+  Vec3<R> sample(R u1, R u2) const {
+    const R z2 = std::min(R(1), alpha2 * std::expm1(u1 * std::log1p(1 / alpha2)));
+    const R s = std::sqrt(1 - z2), phi = 2 * std::numbers::pi_v<R> * u2;
+    return {s * std::cos(phi), s * std::sin(phi), std::sqrt(z2)};
+  }
+};
+
+}  // namespace mms::materials

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Distributions of microfacet normals: GGX (Walter et al. 2007), and Beckmann. Both are
+/// anisotropic, are masked after Smith with correlated heights (Heitz 2014), and are sampled by
+/// visible normals: GGX through spherical caps (Dupuy and Benyoub 2023), Beckmann by inverting the
+/// distribution of visible slopes (Heitz and d'Eon 2014). A distribution offers
+///
+///   density(h)            facets of unit normal `h` per steradian and unit area of surface
+///   shadow(w)             |w.z| Lambda(w): finite at grazing angles
+///   sample_visible(wo, u1, u2)  a normal that `wo` (z > 0) sees
+///   tables()              what multiple scattering needs (materials/energy.h)
+
+#include "materials/energy.h"
+#include "materials/lobe.h"
+
+namespace mms::materials {
+
+/// Below this alpha the lobe is a mirror. Rounding a direction in float moves it by about 1e-7
+/// rad, so that at alpha = 1e-4 f already carries a relative error near 2e-3 where it is steepest.
+inline constexpr double kMinAlpha = 1e-4;
+
+/// Width of the distribution along the local axes.
+template <class R>
+struct Alpha {
+  R ax, ay;
+
+  /// alpha = roughness^2, stretched by `anisotropy` in [-1, 1]: positive elongates highlights along
+  /// the local x axis; 0.9 of it removes, at most, 90% of the aspect's square (as Burley 2012).
+  static Alpha from(R roughness, R anisotropy) {
+    const R r = limited(roughness, R(0), R(1));
+    const R a = limited(anisotropy, R(-1), R(1));
+    const R aspect = std::sqrt(1 - R(0.9) * std::abs(a));
+    const R wide = r * r / aspect, narrow = r * r * aspect;
+    return a >= 0 ? Alpha{wide, narrow} : Alpha{narrow, wide};
+  }
+
+  bool specular() const { return !(std::min(ax, ay) >= R(kMinAlpha)); }
+
+  /// Length of the tangential part of `w`, stretched.
+  R tangent(Vec3<R> w) const {
+    const R x = ax * w.x, y = ay * w.y;
+    return std::sqrt(x * x + y * y);
+  }
+};
+
+template <class R>
+struct Ggx : Alpha<R> {
+  using Alpha<R>::ax, Alpha<R>::ay;
+
+  R density(Vec3<R> h) const {
+    const R x = h.x / ax, y = h.y / ay;
+    const R t = x * x + y * y + h.z * h.z;
+    return 1 / (kPi<R> * ax * ay * t * t);
+  }
+
+  R shadow(Vec3<R> w) const {
+    const R x = ax * w.x, y = ay * w.y, t2 = x * x + y * y, z = std::abs(w.z);
+    const R sum = std::sqrt(t2 + z * z) + z;
+    return sum > 0 ? t2 / sum / 2 : R(0);
+  }
+
+  Vec3<R> sample_visible(Vec3<R> wo, R u1, R u2) const {
+    const Vec3<R> w = normalize(Vec3<R>{ax * wo.x, ay * wo.y, wo.z});
+    // A point of the cap around `w`; 1 - z and 1 + z are formed without subtraction.
+    const R low = u2 * (1 + w.z);
+    const R r = std::sqrt(std::max(R(0), low * (2 - low)));
+    const R phi = 2 * kPi<R> * u1;
+    const Vec3<R> c{r * std::cos(phi), r * std::sin(phi), 1 - low};
+    const Vec3<R> h = c + w;
+    return normalize(Vec3<R>{ax * h.x, ay * h.y, std::max(R(0), h.z)});
+  }
+
+  static const FacetTables& tables() { return kGgxTables; }
+};
+
+/// x with erf(x) = `y` in (-1, 1): a start after Winitzki (2008), then Newton's method.
+template <class R>
+inline R erf_inverse(R y) {
+  const R limit = 1 - std::numeric_limits<R>::epsilon() / 2;
+  y = std::clamp(y, -limit, limit);
+  const R log = std::log((1 - y) * (1 + y)), a = R(0.147);
+  const R b = 2 / (kPi<R> * a) + log / 2;
+  R x = std::sqrt(std::max(R(0), std::sqrt(b * b - log / a) - b));
+  const R target = std::abs(y), tail = 1 - target;
+  for (int i = 0; i < 3; ++i) {
+    const R slope = 2 / std::sqrt(kPi<R>) * std::exp(-x * x);
+    const R error = target < R(0.5) ? std::erf(x) - target : tail - std::erfc(x);
+    x -= error / slope;
+  }
+  return std::copysign(x, y);
+}
+
+template <class R>
+struct Beckmann : Alpha<R> {
+  using Alpha<R>::ax, Alpha<R>::ay;
+
+  R density(Vec3<R> h) const {
+    const R x = h.x / ax, y = h.y / ay, z2 = h.z * h.z, z4 = z2 * z2;
+    if (!(z4 > 0)) return 0;  // the exponential has fallen far below
+    return std::exp(-(x * x + y * y) / z2) / (kPi<R> * ax * ay * z4);
+  }
+
+  R shadow(Vec3<R> w) const {
+    const R t = this->tangent(w), z = std::abs(w.z);
+    if (!(t > 0) || z > 6 * t) return 0;  // below 1e-17 of z
+    const R a = z / t;
+    const R s = std::exp(-a * a) / std::sqrt(kPi<R>) - a * std::erfc(a);
+    return std::max(R(0), t * s / 2);
+  }
+
+  Vec3<R> sample_visible(Vec3<R> wo, R u1, R u2) const {
+    const R t = this->tangent(wo), length = std::sqrt(t * t + wo.z * wo.z);
+    const R slope = visible_slope(wo.z / length, t / length, u1), across = erf_inverse(2 * u2 - 1);
+    const R cx = t > 0 ? ax * wo.x / t : R(1), cy = t > 0 ? ay * wo.y / t : R(0);
+    const R x = slope * cx - across * cy, y = slope * cy + across * cx;
+    return normalize(Vec3<R>{-ax * x, -ay * y, R(1)});
+  }
+
+  static const FacetTables& tables() { return kBeckmannTables; }
+
+ private:
+  /// The slope along a direction of cosine c and sine s: the density over x < c / s is proportional
+  /// to (c - s x) e^(-x^2). Newton's method in a bracket on the integral,
+  /// c (1 + erf x) / 2 + s e^(-x^2) / (2 sqrt pi).
+  static R visible_slope(R c, R s, R u) {
+    const R root = std::sqrt(kPi<R>);
+    const auto integral = [&](R x) {
+      return c * std::erfc(-x) / 2 + s * std::exp(-x * x) / (2 * root);
+    };
+    R lo = -R(6), hi = c < 6 * s ? c / s : R(6);
+    const R target = u * integral(hi), noise = std::numeric_limits<R>::epsilon() * integral(hi) / 4;
+    R x = c < 6 * s ? std::min(R(0), hi) : R(0);
+    for (int i = 0; i < 40; ++i) {
+      const R error = integral(x) - target;
+      if (std::abs(error) <= noise) break;
+      (error < 0 ? lo : hi) = x;
+      const R slope = (c - s * x) * std::exp(-x * x) / root;
+      const R next = x - error / slope;
+      x = next > lo && next < hi ? next : (lo + hi) / 2;
+    }
+    return x;
+  }
+};
+
+/// G2 / (4 |wo.z| |wi.z|).
+template <class R, template <class> class Facets>
+inline R masking(const Facets<R>& facets, Vec3<R> wo, Vec3<R> wi) {
+  const R o = std::abs(wo.z), i = std::abs(wi.z);
+  const R s = o * i + i * facets.shadow(wo) + o * facets.shadow(wi);
+  return s > 0 ? R(0.25) / s : R(0);
+}
+
+/// Density of the visible normal `h` seen from `wo`, divided by |wo.h|.
+template <class R, template <class> class Facets>
+inline R visible(const Facets<R>& facets, Vec3<R> wo, Vec3<R> h) {
+  return facets.density(h) / (std::abs(wo.z) + facets.shadow(wo));
+}
+
+}  // namespace mms::materials

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Cubic B-splines over uniform grids: what tables are read with. n nodes on [0, 1] have n + 2
+/// coefficients; the curve is twice differentiable. Pure; allocates nothing.
+
+#include <algorithm>
+
+namespace mms::materials {
+
+/// The four coefficients that `x` in [0, 1] depends on, and their weights, which sum to 1.
+template <class R>
+struct Stencil {
+  int first = 0;
+  R weight[4] = {};
+
+  /// Outside [0, 1], and where `x` is not a number, the nearer end holds.
+  static Stencil at(R x, int nodes) {
+    const R u = (x > 0 ? std::min(x, R(1)) : R(0)) * R(nodes - 1);
+    Stencil s;
+    s.first = std::min(int(u), nodes - 2);
+    const R t = u - R(s.first), v = 1 - t;
+    s.weight[0] = v * v * v / 6;
+    s.weight[1] = (4 + t * t * (3 * t - 6)) / 6;
+    s.weight[2] = (4 + v * v * (3 * v - 6)) / 6;
+    s.weight[3] = t * t * t / 6;
+    return s;
+  }
+};
+
+/// Coefficients along one axis.
+constexpr int coefficients(int nodes) { return nodes + 2; }
+
+/// The table's value; the last stencil's axis is the innermost. `stride` is of one step of the
+/// first axis and given for each axis but the last.
+template <class R>
+inline R interpolate(const float* table, const Stencil<R>& a) {
+  const float* p = table + a.first;
+  return a.weight[0] * R(p[0]) + a.weight[1] * R(p[1]) + a.weight[2] * R(p[2]) +
+         a.weight[3] * R(p[3]);
+}
+template <class R, class... Rest>
+inline R interpolate(const float* table, const Stencil<R>& a, int stride, const Rest&... rest) {
+  R sum = 0;
+  for (int k = 0; k < 4; ++k)
+    sum += a.weight[k] * interpolate(table + (a.first + k) * stride, rest...);
+  return sum;
+}
+
+}  // namespace mms::materials

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/sheet.h"
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <algorithm>
+#include <array>
+
+namespace mms::renderer {
+namespace {
+
+/// Where Debian puts fonts-dejavu-core and fonts-liberation, the first that is there.
+constexpr const char* kFonts[] = {
+    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+    "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"};
+
+constexpr int kMargin = 4;  ///< pixels around tiles
+constexpr float kPaper = 0.14f, kInk = 0.88f;
+
+std::string find_font() {
+  for (const char* font : kFonts)
+    if (OIIO::ImageBufAlgo::text_size("x", 12, font).defined()) return font;
+  return "";
+}
+
+/// Draws `text` in the middle of the strip that begins at (x, y), no wider than `width`.
+void write_caption(OIIO::ImageBuf& image, const std::string& text, const std::string& font, int x,
+                   int y, int width, int size) {
+  const OIIO::ROI box = OIIO::ImageBufAlgo::text_size(text, size, font);
+  if (box.defined() && box.width() > width) size = std::max(6, size * width / box.width());
+  const std::array<float, 3> ink{kInk, kInk, kInk};
+  OIIO::ImageBufAlgo::render_text(image, x + width / 2, y, text, size, font, ink,
+                                  OIIO::ImageBufAlgo::TextAlignX::Center,
+                                  OIIO::ImageBufAlgo::TextAlignY::Center);
+}
+
+}  // namespace
+
+Sheet make_sheet(const std::vector<SheetTile>& tiles, int width, int height, int columns) {
+  const int size = std::clamp(width / 13, 9, 28), strip = size * 7 / 4;
+  const int across = width + kMargin, down = height + strip + kMargin;
+  const int rows = (int(tiles.size()) + columns - 1) / columns;
+  OIIO::ImageBuf image(
+      OIIO::ImageSpec(columns * across + kMargin, rows * down + kMargin, 3, OIIO::TypeDesc::UINT8));
+  const std::array<float, 3> paper{kPaper, kPaper, kPaper};
+  OIIO::ImageBufAlgo::fill(image, paper);
+  const std::string font = find_font();
+  for (int i = 0; i < int(tiles.size()); ++i) {
+    const int x = kMargin + i % columns * across, y = kMargin + i / columns * down;
+    const SheetTile& tile = tiles[std::size_t(i)];
+    if (!tile.pixels.empty())
+      image.set_pixels(OIIO::ROI(x, x + width, y, y + height, 0, 1, 0, 3), OIIO::TypeDesc::UINT8,
+                       tile.pixels.data());
+    if (!font.empty() && !tile.caption.empty())
+      write_caption(image, tile.caption, font, x, y + height + strip / 2, width, size);
+  }
+  Sheet sheet{image.spec().width, image.spec().height, {}, !font.empty()};
+  sheet.pixels.resize(std::size_t(sheet.width) * std::size_t(sheet.height) * 3);
+  image.get_pixels(image.roi(), OIIO::TypeDesc::UINT8, sheet.pixels.data());
+  return sheet;
+}
+
+}  // namespace mms::renderer

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// A picture file with its numbers made linear as they are read, before anything filters them.
+/// Internal to the textures.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+
+namespace mms::renderer {
+
+/// What is known of a picture file.
+struct TexelFile {
+  std::string path;
+  std::string space;  ///< `linear`, `sRGB` or one that OpenColorIO knows; never `auto`
+  int width = 0, height = 0, channels = 0;
+  std::vector<std::string> channel_names;
+  bool bounded = false;  ///< numbers are in [0, 1] for certain
+};
+
+/// Looks into the file and reads the last of it, so that one that is cut off is found out. The
+/// error's `what` goes on after the file's name.
+Result<TexelFile> inspect_texels(const std::string& path, const std::string& space);
+
+/// A number that the file states under `name`.
+bool texel_fact(const std::string& path, std::string_view name, double& value);
+
+/// The least and the greatest number of all channels and levels, made linear.
+void texel_range(const TexelFile& file, double& low, double& high);
+
+/// The name of the file's numbers in an OIIO::ImageCache `cache`, to which it is added.
+std::string add_texels(void* cache, const TexelFile& file);
+
+}  // namespace mms::renderer

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// Enclosures of white and cellular noise. Distances to random points change no faster than the
+// point moves.
+#include "stdlib/bounds.h"
+#include "stdlib/bounds_lattice.h"
+
+#define MMS_ISA lattice_cells
+#include "stdlib/cells.h"
+
+namespace mms::stdlib::bounds {
+
+namespace {
+
+/// What the float kernels may miss the exact value by, absolutely; tests measure a tenth of it.
+constexpr double kDistanceError = 0x1p-18;
+
+template <int N, class Value>
+void cells(const Interval* in, Interval* out, Value value) {
+  Interval r = Interval::empty();
+  out[0].nan = false;
+  for (int k = 0; k < N; ++k)
+    if (in[k].nan) return;  // which is in some cell
+  if (each_cell<N>(in, [&](const double(&floors)[N], const Range(&)[N]) {
+        r = join(r, Interval::point(value(floors)));
+      }))
+    out[0] = r;
+}
+
+/// White noise is known at points only.
+template <int N, class Value>
+void hash(const Interval* in, Interval* out, Value value) {
+  double x[N];
+  out[0].nan = false;
+  for (int k = 0; k < N; ++k) {
+    if (!in[k].is_point()) return;
+    x[k] = in[k].lo;
+  }
+  out[0] = Interval::point(value(x));
+}
+
+/// Distances found at the centre move by at most the radius of the box. What is found is the
+/// nearest point as long as that is within 1, the width of a cell; else it may be farther.
+template <int N>
+void worley(const Interval* in, Interval* out, int distances) {
+  // A point in the cell itself, and one in the next cell on the nearer side.
+  const double farthest[] = {std::sqrt(double(N)), std::sqrt(1.25 + N)};
+  double centre[N], radius2 = 0;
+  bool known = finite(in, N), beyond = false;
+  for (int k = 0; k < N; ++k) {
+    known &= !in[k].nan;
+    beyond |= !(in[k].magnitude() < 0x1p30);
+    centre[k] = 0.5 * (in[k].lo + in[k].hi);
+    const double half = 0.5 * (in[k].hi - in[k].lo);
+    radius2 += half * half;
+  }
+  for (int k = 0; k < distances; ++k) out[k].nan = false;
+  if (!known) return;  // infinite where a coordinate is not a number
+  for (int k = 0; k < distances; ++k) out[k] = {0, farthest[k] + kDistanceError, false};
+  if (beyond || radius2 > N) return;
+  const auto found = lattice_cells::nearest<double, N>(centre);
+  const double radius = std::sqrt(radius2),
+               at[] = {std::sqrt(found.first), std::sqrt(found.second)};
+  for (int k = 0; k < distances; ++k) {
+    out[k].lo = std::max(0.0, std::min(at[k], 1.0) - radius - kDistanceError);
+    if (at[k] + radius <= 1) out[k].hi = at[k] + radius + kDistanceError;
+  }
+}
+
+/// A way between a point and the middle of a cell that was searched is at most 2.5 along each axis.
+template <int N>
+void worley_found(const Interval* in, Interval* out, int points) {
+  const Interval& jitter = in[2 * N + 1];
+  const double most = (2.5 + 0.5 * jitter.magnitude()) * (1 + 0x1p-20);
+  const bool number = finite(in, N) && !jitter.contains_infinity();
+  for (int k = 0; k < points * N; ++k) out[k] = {-most, most, !number};
+}
+
+}  // namespace
+
+// A functor over one value type at N coordinates.
+#define MMS_AT(N, Functor, ...) \
+  [](const double(&x)[N]) { return lattice_cells::Functor<double>::eval(__VA_ARGS__); }
+void hash1(const Interval* in, Interval* out) { hash<1>(in, out, MMS_AT(1, Hash1, x[0])); }
+void hash2(const Interval* in, Interval* out) { hash<2>(in, out, MMS_AT(2, Hash2, x[0], x[1])); }
+void hash3(const Interval* in, Interval* out) {
+  hash<3>(in, out, MMS_AT(3, Hash3, x[0], x[1], x[2]));
+}
+void hash4(const Interval* in, Interval* out) {
+  hash<4>(in, out, MMS_AT(4, Hash4, x[0], x[1], x[2], x[3]));
+}
+void cells1(const Interval* in, Interval* out) { cells<1>(in, out, MMS_AT(1, Cells1, x[0])); }
+void cells2(const Interval* in, Interval* out) { cells<2>(in, out, MMS_AT(2, Cells2, x[0], x[1])); }
+void cells3(const Interval* in, Interval* out) {
+  cells<3>(in, out, MMS_AT(3, Cells3, x[0], x[1], x[2]));
+}
+void cells4(const Interval* in, Interval* out) {
+  cells<4>(in, out, MMS_AT(4, Cells4, x[0], x[1], x[2], x[3]));
+}
+#undef MMS_AT
+
+void worley_ways1(const Interval* in, Interval* out) { worley_found<1>(in, out, 3); }
+void worley_ways2(const Interval* in, Interval* out) { worley_found<2>(in, out, 3); }
+void worley_ways3(const Interval* in, Interval* out) { worley_found<3>(in, out, 3); }
+void worley_ways4(const Interval* in, Interval* out) { worley_found<4>(in, out, 3); }
+void worley_border1(const Interval* in, Interval* out) { worley_found<1>(in, out, 2); }
+void worley_border2(const Interval* in, Interval* out) { worley_found<2>(in, out, 2); }
+void worley_border3(const Interval* in, Interval* out) { worley_found<3>(in, out, 2); }
+void worley_border4(const Interval* in, Interval* out) { worley_found<4>(in, out, 2); }
+
+void worley2(const Interval* in, Interval* out) { worley<2>(in, out, 1); }
+void worley3(const Interval* in, Interval* out) { worley<3>(in, out, 1); }
+void worley_pair2(const Interval* in, Interval* out) { worley<2>(in, out, 2); }
+void worley_pair3(const Interval* in, Interval* out) { worley<3>(in, out, 2); }
+
+}  // namespace mms::stdlib::bounds

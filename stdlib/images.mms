@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images from files. `at` is [u, v]: [0, 0] is the lower left corner of the picture, [1, 1] the upper
+// right one. Names, and the words for filter, wrap, space, channel and storage, are known at link.
+// What the pixel covers is filtered away, exactly as `$footprint` says, `width` times as wide
+// (0: not at all) and wider by `blur`, a part of the picture.
+
+/// How `at` changes across the pixel along its x axis (column 0) or its y axis.
+/// >>> image_step([0.5, 0.5], 0, 0)
+/// [0, 0]
+real[2] image_step(real[2] at, integer column, real width) = select
+    [0.0, 0.0], if width == 0;
+    width * intrinsic::along_footprint(at, column) otherwise;
+end;
+
+/// The colour of an image as a reflectance. `space` is that of the file's numbers: `auto` is what the
+/// file says or its kind has, then `sRGB`, `linear`, or any that OpenColorIO knows.
+/// >>> image("file.png", [0.5, 0.5])
+spectrum image(string file, real[2] at, string filter = "smart", real width = 1.0, real blur = 0.0,
+    string wrap = "repeat", string space = "auto", string storage = "raw") =
+    rgb(image_rgb(file, at, filter, width, blur, wrap, space, storage));
+
+/// The colour of an image as [red, green, blue], linear: for lights, and to reckon with.
+/// >>> image_rgb("file.exr", [0.5, 0.5])
+real[3] image_rgb(string file, real[2] at, string filter = "smart", real width = 1.0,
+    real blur = 0.0,
+    string wrap = "repeat", string space = "auto", string storage = "raw") =
+    image_colour(intrinsic::image(file, filter, wrap, space, "", storage), at,
+        image_step(at, 0, width), image_step(at, 1, width), [blur, blur]);
+
+/// A number of an image: of the channel with that name or place from 0, or else the luminance. The
+/// numbers are the file's own unless `space` says otherwise.
+/// >>> image_value("file.png", [0.5, 0.5])
+real image_value(string file, real[2] at, string channel = "", string filter = "smart",
+    real width = 1.0, real blur = 0.0, string wrap = "repeat", string space = "linear",
+    string storage = "raw") =
+    image_number(intrinsic::image(file, filter, wrap, space, channel, storage), at,
+        image_step(at, 0, width), image_step(at, 1, width), [blur, blur]);
+
+/// A number that the file states: `width`, `height`, `channels`, or one of its metadata by name;
+/// `fallback` where it states none.
+/// >>> image_fact("file.png", "width")
+real image_fact(string file, string name, real fallback = 0.0) = intrinsic::image_fact(
+    intrinsic::image(file, "nearest", "clamp", "linear", "", "raw"), name, fallback);
+
+/// Columns and rows of an image.
+/// >>> image_size("file.png")
+integer[2] image_size(string file) =
+    [integer(image_fact(file, "width")), integer(image_fact(file, "height"))];

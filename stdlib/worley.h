@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+// Included once for each instruction set; see core.h.
+#pragma once
+
+/// \file
+/// Cellular noise (Worley 1996) in its general form: the three nearest of random points, one in
+/// each unit cell, by any of Minkowski's distances, with jitter, seed and periods; and the
+/// neighbour across the nearest border of the Voronoi cells.
+///
+/// Two cells on either side are searched along each axis (in 4 dimensions two along one axis at a
+/// time), so that what is found is nearest, but for points farther away than 2 (there 1.4): that
+/// hardly happens. The search goes cell by cell over a few lanes, for it is too long to be unrolled
+/// as other kernels are. Hashes as in cells.h, so that with jitter 1 these are its points.
+
+#include "stdlib/lattice.h"
+
+namespace mms::stdlib::MMS_ISA {
+
+/// |x|^e for choosing among points; not exact.
+MMS_INLINE float rough_power(float x, float e) { return exp2_float(e * log2_float(magnitude(x))); }
+MMS_INLINE double rough_power(double x, double e) { return __builtin_pow(magnitude(x), e); }
+
+/// Exponents of Minkowski's distances beyond this one count as infinite.
+inline constexpr float kMostExponent = 64;
+
+/// Which distances a few lanes ask for.
+enum class Metrics { Euclidean, Simple, Any };
+
+/// A comparison of distances by `exponent`: grows with the distance.
+template <Metrics metrics, class R, int N>
+MMS_INLINE R distance_key(const R (&way)[N], R exponent) {
+  R squares = 0, sum = 0, largest = 0, powers = 0;
+#pragma GCC unroll 4
+  for (int k = 0; k < N; ++k) {
+    const R size = magnitude(way[k]);
+    squares = fused(way[k], way[k], squares);
+    sum += size;
+    largest = size > largest ? size : largest;
+    if constexpr (metrics == Metrics::Any) powers += rough_power(size, exponent);
+  }
+  if constexpr (metrics == Metrics::Euclidean) return squares;
+  const R other = metrics == Metrics::Any ? powers : R(0);
+  const R key = exponent == 1 ? sum : exponent > R(kMostExponent) ? largest : other;
+  return exponent == 2 ? squares : key;
+}
+
+/// A search for the points around a few lanes.
+template <class R, int N>
+struct WorleySearch {
+  static constexpr int kLanes = vm::kLaneMultiple, kSides = 5, kFound = 3;
+  using Reals = R[kLanes];
+  using Hashes = Bits[kLanes];
+
+  alignas(64) Reals position[N];  ///< in the cell
+  Reals floors[N], periods[N];    ///< of the cell, within the periods
+  Hashes side[N][kSides];         ///< lattice coordinates around
+  Hashes start;                   ///< of the seed
+  Reals jitter, exponent;
+  Reals best[kFound];                  ///< keys of the nearest, in order
+  std::int32_t index[kFound][kLanes];  ///< whose cells they are in: 3 bits an axis
+
+  /// Lattice coordinate of the cell `by` cells above on axis k.
+  MMS_INLINE Bits coordinate(int k, int l, R by) const {
+    Tiled<R, 1> where;
+    where.period[0] = periods[k][l];
+    return lattice(where.wrapped(0, floors[k][l] + by));
+  }
+
+  /// From the arguments (p, seed, period, jitter, exponent), the last where it is one.
+  MMS_INLINE void load(const void* const* in, int first, bool has_exponent) {
+    const auto real = [&](int k, int l) { return static_cast<const R*>(in[k])[first + l]; };
+    for (int k = 0; k < N; ++k) {
+#pragma GCC ivdep
+      for (int l = 0; l < kLanes; ++l) {
+        const R x = real(k, l), f = floor_of(x);
+        position[k][l] = x - f;
+        periods[k][l] = whole_period(real(N + 1 + k, l), R(1));
+        Tiled<R, 1> where;
+        where.period[0] = periods[k][l];
+        floors[k][l] = where.wrapped(0, f);
+      }
+      for (int i = 0; i < kSides; ++i) {
+#pragma GCC ivdep
+        for (int l = 0; l < kLanes; ++l) side[k][i][l] = coordinate(k, l, R(i - 2));
+      }
+    }
+    for (int l = 0; l < kLanes; ++l) {
+      start[l] = start_of(static_cast<const std::int32_t*>(in[N])[first + l]);
+      jitter[l] = real(2 * N + 1, l);
+      const R e = has_exponent ? real(2 * N + 2, l) : R(2);
+      exponent[l] = e > 1 ? e : R(1);
+      for (int j = 0; j < kFound; ++j) best[j][l] = kInf<R>, index[j][l] = 0;
+    }
+  }
+
+  MMS_INLINE Metrics metrics() const {
+    bool euclidean = true, simple = true;
+    for (int l = 0; l < kLanes; ++l) {
+      const R e = exponent[l];
+      euclidean &= e == 2;
+      simple &= (e == 2) | (e == 1) | (e > R(kMostExponent));
+    }
+    return euclidean ? Metrics::Euclidean : simple ? Metrics::Simple : Metrics::Any;
+  }
+
+  /// What jitter moves the point with that finished hash by, times it.
+  MMS_INLINE static void shifts(Bits point, R (&shift)[N]) {
+#pragma GCC unroll 4
+    for (int k = 0; k < N; ++k) {
+      shift[k] = unit<R>(point) - R(0.5);
+      point *= 0xc2b2ae3du;
+      point ^= point >> 15;
+    }
+  }
+
+  /// Calls `see(l, cell, way)` for all lanes and cells on axes K .. N-1; `cell` is as `index`,
+  /// `way` leads from the cell's point to the lane's.
+  template <int K, class See>
+  MMS_INLINE void visit(const Hashes& h, int cell, int far, R (&at)[N], See see) const {
+    for (int i = 0; i < kSides; ++i) {
+      const bool beyond = i == 0 || i == kSides - 1;
+      if (N == 4 && beyond && far > 0) continue;
+      at[K] = R(i - 2) + R(0.5);
+      const int here = cell | i << (3 * K);
+      if constexpr (K + 1 < N) {
+        Hashes next;
+#pragma GCC ivdep
+        for (int l = 0; l < kLanes; ++l) next[l] = mix(h[l], side[K][i][l]);
+        visit<K + 1>(next, here, far + beyond, at, see);
+      } else {
+#pragma GCC ivdep
+        for (int l = 0; l < kLanes; ++l) {
+          R shift[N], way[N];
+          shifts(finish(mix(h[l], side[K][i][l])), shift);
+#pragma GCC unroll 4
+          for (int k = 0; k < N; ++k) way[k] = fused(-jitter[l], shift[k], position[k][l] - at[k]);
+          see(l, here, way);
+        }
+      }
+    }
+  }
+
+  template <Metrics metrics>
+  [[gnu::noinline]] void find_by() {
+    R at[N];
+    visit<0>(
+        start, 0, 0, at, [this](int l, int cell, const R(&way)[N]) __attribute__((always_inline)) {
+          const R key = distance_key<metrics>(way, exponent[l]);
+          const R a = best[0][l], b = best[1][l], c = best[2][l];
+          const std::int32_t i = index[0][l], j = index[1][l], k = index[2][l];
+          const bool first = key < a, second = key < b, third = key < c;
+          best[0][l] = first ? key : a;
+          best[1][l] = first ? a : second ? key : b;
+          best[2][l] = second ? b : third ? key : c;
+          index[0][l] = first ? cell : i;
+          index[1][l] = first ? i : second ? cell : j;
+          index[2][l] = second ? j : third ? cell : k;
+        });
+  }
+  MMS_INLINE void find() {
+    const Metrics m = metrics();
+    if (m == Metrics::Euclidean)
+      find_by<Metrics::Euclidean>();
+    else if (m == Metrics::Simple)
+      find_by<Metrics::Simple>();
+    else
+      find_by<Metrics::Any>();
+  }
+
+  /// Hash of the point that was found in the cell of that index, and the way from the cell's
+  /// middle.
+  MMS_INLINE Bits found(std::int32_t cell, int l, R (&middle)[N]) const {
+    Bits h = start[l];
+#pragma GCC unroll 4
+    for (int k = 0; k < N; ++k) {
+      const R by = R((cell >> (3 * k) & 7) - 2);
+      h = mix(h, coordinate(k, l, by));
+      middle[k] = position[k][l] - (by + R(0.5));
+    }
+    return finish(h);
+  }
+
+  /// Puts the neighbour across the nearest border of the nearest point's cell into index[1].
+  [[gnu::noinline]] void find_border() {
+    find_by<Metrics::Euclidean>();
+    Reals nearest[N];
+    for (int l = 0; l < kLanes; ++l) {
+      R middle[N], shift[N];
+      shifts(found(index[0][l], l, middle), shift);
+      for (int k = 0; k < N; ++k) nearest[k][l] = fused(-jitter[l], shift[k], middle[k]);
+      best[1][l] = kInf<R>;
+    }
+    R at[N];
+    visit<0>(
+        start, 0, 0, at, [&](int l, int cell, const R(&way)[N]) __attribute__((always_inline)) {
+          R apart = 0,
+            along = 0;  // of the two points; twice the distance to the border, times that
+#pragma GCC unroll 4
+          for (int k = 0; k < N; ++k) {
+            const R step = way[k] - nearest[k][l];
+            apart = fused(step, step, apart);
+            along = fused(step, way[k] + nearest[k][l], along);
+          }
+          const R key = along / root(apart), b = best[1][l];
+          const std::int32_t j = index[1][l];
+          const bool nearer = (cell != index[0][l]) & (key < b);
+          best[1][l] = nearer ? key : b;
+          index[1][l] = nearer ? cell : j;
+        });
+  }
+};
+
+/// What a row gives of the points found.
+enum class WorleyPart { Ways, Shifts, Number };
+
+/// The kernel of a row: N ways (or shifts) of each of `points` points, or the nearest one's number.
+template <class R, int N, WorleyPart part, bool border>
+inline void worley_kernel(const void* const* in, void* const* out, int lanes) {
+  using Search = WorleySearch<R, N>;
+  constexpr int points = part == WorleyPart::Number ? 1 : border ? 2 : 3;
+  Search s;
+  for (int first = 0; first < lanes; first += Search::kLanes) {
+    s.load(in, first, !border);
+    if constexpr (border)
+      s.find_border();
+    else
+      s.find();
+    for (int j = 0; j < points; ++j) {
+#pragma GCC ivdep
+      for (int l = 0; l < Search::kLanes; ++l) {
+        R middle[N], shift[N];
+        const Bits h = s.found(s.index[j][l], l, middle);
+        if constexpr (part == WorleyPart::Number) {
+          static_cast<R*>(out[0])[first + l] = unit<R>(finish(h ^ kSeed));
+        } else {
+          s.shifts(h, shift);
+#pragma GCC unroll 4
+          for (int k = 0; k < N; ++k)
+            static_cast<R*>(out[j * N + k])[first + l] =
+                part == WorleyPart::Shifts ? shift[k] : fused(-s.jitter[l], shift[k], middle[k]);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace mms::stdlib::MMS_ISA

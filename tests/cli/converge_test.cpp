@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// mms converge: error against samples and time.
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "tests/cli/command.h"
+
+using mms::cli::Folder;
+using mms::cli::Outcome;
+
+#if MMS_RENDERER
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream in(line);
+    rows.emplace_back();
+    for (std::string cell; std::getline(in, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("converge measures what it is asked for, and draws it") {
+  const Folder folder;
+  // A paper lantern: its outside is lit through its inside.
+  folder.write("s.mms", "surface \"s\" bsdf = translucent(0.9); end\n");
+  const Outcome run = folder.mms(
+      "converge s.mms --samples 2:32 --reference 256 --with 'size=24x24 scene=furnace' "
+      "--vary filter=box --vary 'filter=box max-depth=1' -o c.csv");
+  INFO(run.out, run.err);
+  REQUIRE(run.exit == 0);
+  const auto rows = rows_of(folder.read("c.csv"));
+  REQUIRE(rows.size() == 11);
+  CHECK(rows[0][0] == "switches");
+  CHECK(rows[0][4] == "rmse");
+  CHECK(rows[1][0] == "filter=box");
+  CHECK(rows[6][0] == "filter=box max-depth=1");
+  for (int i = 0; i < 5; ++i) CHECK(rows[std::size_t(i) + 1][1] == std::to_string(2 << i));
+  const auto error = [&](std::size_t row) { return std::stod(rows[row][4]); };
+  // Sixteen times the samples: a quarter of the error at most, but for a fifth that the stated
+  // error is known to.
+  CHECK(error(5) < error(1) / 4 * 1.2);
+  // Without light that is scattered twice a picture is wrong, however many samples it has.
+  CHECK(error(10) > 3 * error(5));
+  const std::string svg = folder.read("c.svg");
+  CHECK(svg.starts_with("<svg "));
+  CHECK(svg.ends_with("</svg>\n"));
+  CHECK(contains(svg, "filter=box max-depth=1"));
+  CHECK(contains(svg, "slope -"));
+  CHECK(folder.file_count() == 3);
+}
+
+TEST_CASE("converge says what it cannot do") {
+  const Folder folder;
+  folder.write("s.mms", "surface \"s\" bsdf = matte(0.5); end\n");
+  const struct {
+    const char *args, *what;
+  } cases[] = {{"--samples 8:4", "--samples"},
+               {"--samples x", "--samples"},
+               {"--reference 0", "--reference"},
+               {"-o c.txt", ".csv"}};
+  for (const auto& c : cases) {
+    CAPTURE(c.args);
+    const Outcome run = folder.mms("converge s.mms " + std::string(c.args));
+    CHECK(run.exit == 2);
+    CHECK(contains(run.err, c.what));
+  }
+  const Outcome run = folder.mms("converge s.mms --samples 1:1 --with size=8x8 --vary filter=bx");
+  CHECK(run.exit != 0);
+  CHECK(contains(run.err, "--filter=bx"));
+}
+
+#endif

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images, from a file to every verb.
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "tests/cli/command.h"
+
+using mms::cli::Folder;
+using mms::cli::Outcome;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// Two columns, black and white.
+void write_picture(const Folder& folder, const std::string& name) {
+  folder.write(name, std::string("P5 2 1 255\n") + '\0' + '\xff');
+}
+
+constexpr const char* kScript =
+    "real a() = image_value(\"p.pgm\", [0.5, 0.5], filter = \"bilinear\", width = 0);\n"
+    "real g() = gradient(function(u) -> image_value(\"p.pgm\", [u, 0.5], filter = \"bilinear\","
+    " width = 0), 0.5);\n"
+    "surface s bsdf = matte(image(\"p.pgm\", $uv)); height = 0.01 * image_value(\"p.pgm\", $uv);"
+    " end\n";
+
+}  // namespace
+
+TEST_CASE("a missing image is told with every place, and --missing=magenta goes on") {
+  const Folder folder;
+  folder.write("s.mms", kScript);
+  const Outcome refused = folder.mms("check s.mms");
+  CHECK(refused.exit == 1);
+  CHECK(contains(refused.err, "error[E0312]: the image `p.pgm` does not exist"));
+  CHECK(contains(refused.err, "s.mms:1:12"));
+  CHECK(contains(refused.err, "-I"));
+  std::size_t places = 0;
+  for (std::size_t at = refused.err.find("and here"); at != std::string::npos;
+       at = refused.err.find("and here", at + 1))
+    ++places;
+  CHECK(places == 3);
+  const Outcome magenta = folder.mms("eval s.mms --missing=magenta");
+  CHECK(magenta.exit == 0);
+  CHECK(contains(magenta.out, "a = 1\n"));
+  CHECK(contains(magenta.err, "warning[W0408]"));
+  const Outcome memory = folder.mms("check s.mms --image-memory none");
+  CHECK(memory.exit == 2);
+  CHECK(contains(memory.err, "--image-memory"));
+}
+
+TEST_CASE("images reach eval, bounds, compile, deps and render" *
+          doctest::skip(!static_cast<bool>(MMS_RENDERER))) {
+  const Folder folder;
+  folder.write("s.mms", kScript);
+  write_picture(folder, "p.pgm");
+  const Outcome eval = folder.mms("eval s.mms");
+  CHECK(eval.err == "");
+  CHECK(contains(eval.out, "a = 0.5\n"));
+  CHECK(contains(eval.out, "g = 2\n"));
+  CHECK(folder.mms("check --deps s.mms").out == "p.pgm\n");
+  CHECK(contains(folder.mms("check --deps=make s.mms").out, "s.png: s.mms p.pgm"));
+  const Outcome accuracy = folder.mms("accuracy s.mms");
+  CHECK(accuracy.exit == 0);
+  const Outcome compiled = folder.mms("compile s.mms -o s.mmsc");
+  CHECK(compiled.exit == 0);
+  CHECK(folder.mms("eval s.mmsc").out == eval.out);
+  const Outcome render = folder.mms("render s.mms --size 8x8 --samples 1 -o out.png");
+  CHECK(render.exit == 0);
+  CHECK(folder.has("out.png"));
+  CHECK(folder.mms("render s.mmsc --size 8x8 --samples 1 -o again.png").exit == 0);
+  CHECK(folder.read("again.png") == folder.read("out.png"));
+  folder.write("p.pgm", "P5 2 1 255\n");
+  const Outcome broken = folder.mms("check s.mms");
+  CHECK(broken.exit == 1);
+  CHECK(contains(broken.err, "the image `p.pgm` is broken"));
+}

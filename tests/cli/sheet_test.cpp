@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// mms render of several pictures: contact sheets, sweeps, turntables.
+#include <cmath>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/command.h"
+
+using mms::cli::Folder;
+using mms::cli::Outcome;
+
+#if MMS_RENDERER
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// Width and height, of the IHDR chunk.
+std::pair<int, int> size_of(const std::string& png) {
+  REQUIRE(png.size() > 24);
+  const auto number = [&](std::size_t at) {
+    int n = 0;
+    for (std::size_t i = 0; i < 4; ++i) n = n * 256 + static_cast<unsigned char>(png[at + i]);
+    return n;
+  };
+  return {number(16), number(20)};
+}
+
+double difference(const Folder& folder, const std::string& args) {
+  const Outcome run = folder.mms("compare --format=json " + args);
+  INFO(args, run.err);
+  REQUIRE(run.exit == 0);
+  return nlohmann::json::parse(run.out)["rmse"].get<double>();
+}
+
+}  // namespace
+
+TEST_CASE("several scripts and one .png make a contact sheet") {
+  const Folder folder;
+  folder.write("a.mms", "surface \"a\" bsdf = matte(0.1); end\n");
+  folder.write("b.mms", "surface \"b\" bsdf = matte(0.8); end\n");
+  folder.write("bad.mms", "surface \"c\" bsdf = mate(0.8); end\n");
+  const std::string options = " --quiet --size 64x48 --samples 2 -o ";
+  REQUIRE(folder.mms("render a.mms b.mms a.mms" + options + "sheet.png").exit == 0);
+  REQUIRE(folder.mms("render a.mms" + options + "a.png").exit == 0);
+  // Two columns and rows of 64 x 48, with margins and captions.
+  const auto [width, height] = size_of(folder.read("sheet.png"));
+  CHECK(width == 2 * (64 + 4) + 4);
+  CHECK(height > 2 * (48 + 9));
+  // A script that does not compile is said, and leaves its place empty.
+  const Outcome run = folder.mms("render a.mms bad.mms" + options + "hole.png");
+  CHECK(run.exit == 1);
+  CHECK(contains(run.err, "bad.mms"));
+  CHECK(size_of(folder.read("hole.png")).first == width);
+  CHECK(folder.mms("render bad.mms bad.mms" + options + "none.png").exit == 1);
+  CHECK_FALSE(folder.has("none.png"));
+}
+
+TEST_CASE("a sweep shows a param at its values, in a row") {
+  const Folder folder;
+  folder.write("a.mms", "param real shade = 0.3;\nsurface \"a\" bsdf = matte(shade); end\n");
+  const std::string options = " --size 32x32 --samples 2 ";
+  const Outcome run =
+      folder.mms("render a.mms --sweep shade=0:0.8:5 -o s.png --format=json" + options);
+  INFO(run.err);
+  REQUIRE(run.exit == 0);
+  for (const char* caption :
+       {"shade = 0\"", "shade = 0.2", "shade = 0.4", "shade = 0.6", "shade = 0.8"})
+    CHECK(contains(run.out, caption));
+  const auto [width, height] = size_of(folder.read("s.png"));
+  CHECK(width == 5 * (32 + 4) + 4);
+  CHECK(height < 32 + 40);
+  for (const char* bad : {"shade", "shade=0:1", "shade=0:1:1", "shade=0:x:3", "=0:1:3", "a:b=1"}) {
+    CAPTURE(bad);
+    const Outcome wrong = folder.mms("render a.mms --sweep " + std::string(bad) + options);
+    CHECK(wrong.exit == 2);
+    CHECK(contains(wrong.err, "--sweep"));
+  }
+  CHECK(folder.mms("render a.mms --sweep shape=0:1:2 -o n.png" + options).exit != 0);
+  CHECK(folder.mms("render a.mms --sweep shade=0:1:2 --watch" + options).exit == 2);
+}
+
+TEST_CASE("a turntable turns the test object, and ends where it began") {
+  const Folder folder;
+  // One half white, one half black, about the vertical axis.
+  folder.write("a.mms",
+               "surface \"a\" bsdf = matte(smoothstep(-0.1, 0.1, $object_position[0])); end\n");
+  const std::string options = " --quiet --scene furnace --size 32x32 --samples 4 ";
+  const Outcome run = folder.mms("render a.mms --turntable 4 -o t.exr" + options);
+  INFO(run.err);
+  REQUIRE(run.exit == 0);
+  CHECK(folder.file_count() == 5);
+  REQUIRE(folder.mms("render a.mms -o still.exr" + options).exit == 0);
+  CHECK(difference(folder, "t.000.exr still.exr") == 0);
+  CHECK(difference(folder, "t.001.exr still.exr") > 0.01);
+  // A quarter and three quarters show the halves from the front: one bright, one dark, or mirrored
+  // pictures, by where the camera stands; never the same.
+  CHECK(difference(folder, "t.001.exr t.003.exr") > 0.01);
+}
+
+#endif

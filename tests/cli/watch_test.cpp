@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// mms render --watch: the picture follows its files.
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "tests/cli/command.h"
+
+using mms::cli::Folder;
+using mms::cli::Outcome;
+
+#if MMS_RENDERER
+
+TEST_CASE("a watched picture follows the script, its imports and the scene, past mistakes") {
+  const Folder folder;
+  folder.write("s.mms", "surface \"s\" bsdf = matte(0.5); end\n");
+  folder.write("scene.json",
+               R"({"environment": {"constant": 1}, "objects": [{"sphere": {}, "test": true}]})");
+  // `until_line TEXT COUNT`: waits for the COUNT-th line with TEXT; `same`: the picture is the one
+  // that a plain render makes.
+  const Outcome run = folder.bash(R"BASH(
+options="--size 24x24 --samples 3 --seed 9 --scene scene.json"
+fail() { echo "$*"; cat log err; kill -9 $child; exit 1; }
+until_line() {
+  for i in $(seq 1500); do
+    [ "$(grep -c "$1" log)" -ge "$2" ] && return; sleep 0.02
+  done
+  fail "no $2. line with $1"
+}
+same() {
+  mms render s.mms --quiet $options -o plain.png || fail "$1 does not render"
+  cmp plain.png p.png || fail "the $1 is another"
+}
+touch log err
+mms-render render s.mms $options --watch --format=json -o p.png >log 2>err & child=$!
+until_line '"seconds"' 1
+same first
+cp p.png before.png
+echo 'import "lib.mms"; surface "s" bsdf = matte(shade); end' >new; mv new s.mms
+until_line '"code"' 1
+cmp before.png p.png || fail "a mistake changed the picture"
+echo 'const real shade = 0.2;' >lib.mms
+until_line '"seconds"' 2
+same second
+echo 'const real shade = 0.7;' >lib.mms
+until_line '"seconds"' 3
+same third
+sed 's/"constant": 1/"constant": 0.5/' scene.json >new; mv new scene.json
+until_line '"seconds"' 4
+same fourth
+kill -INT $child; wait $child; echo "ended $?"
+grep -c first_picture_seconds log
+)BASH");
+  INFO(run.out, run.err);
+  CHECK(run.exit == 0);
+  CHECK(run.out == "ended 130\n4\n");
+}
+
+TEST_CASE("only one script can be watched") {
+  const Folder folder;
+  folder.write("s.mms", "surface \"s\" bsdf = matte(0.5); end\n");
+  for (const char* args : {"s.mms s.mms", "- -o a.png", "s.mms -o s.film"})
+    CHECK(folder.mms("render --watch " + std::string(args)).exit == 2);
+}
+
+#endif

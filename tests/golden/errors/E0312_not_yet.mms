@@ -1,3 +1,0 @@
-// A name that is kept for later.
-real f() = image("wood.png", $uv);
-//         ^^^^^^^^^^^^^^^^^^^^^^ error E0312: `image`

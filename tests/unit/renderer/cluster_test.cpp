@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Colour from eight wavelengths: how little of it is noise.
+#include "renderer/cluster.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "materials/colour.h"
+#include "scenes.h"
+#include "tests/sanitized.h"
+
+using namespace mms;
+using namespace mms::renderer;
+using namespace mms::renderer::test;
+
+TEST_CASE("one cluster sees white light as white: its luminance within 0.6 %, its colour 7.5 %") {
+  double sum[3] = {}, squares[3] = {}, y = 0, yy = 0;
+  constexpr int n = 4096;
+  for (int i = 0; i < n; ++i) {
+    const Cluster c = sample_cluster((i + 0.5) / n);
+    const auto xyz = c.xyz(c.light({1, 1, 1}) * (1.0f / kWavelengths));
+    const Vec3d rgb = materials::linear_srgb_of_xyz({xyz[0], xyz[1], xyz[2]});
+    for (int k = 0; k < 3; ++k) sum[k] += rgb[k] / n, squares[k] += rgb[k] * rgb[k] / n;
+    y += xyz[1] / n, yy += xyz[1] * xyz[1] / n;
+  }
+  // The white point of sRGB is rounded to four digits.
+  for (int k = 0; k < 3; ++k) {
+    CHECK(sum[k] == doctest::Approx(1).epsilon(5e-4));
+    CHECK(std::sqrt(squares[k] - sum[k] * sum[k]) < 0.075);
+  }
+  CHECK(y == doctest::Approx(1).epsilon(1e-4));
+  CHECK(std::sqrt(yy - y * y) < 0.006);
+}
+
+TEST_CASE("where all is grey, red, green and blue err at most a tenth more than luminance alone") {
+  HandProgram h;
+  h.matte("x", 0.5);
+  const Scene s = builtin(h.program, "backlit");
+  RenderOptions o = options(kSanitized ? 16 : 32, kSanitized ? 256 : 1024);
+  const Film reference = run(h.program, s, o).film;
+  for (const int samples : {4, 16, 64}) {
+    CAPTURE(samples);
+    o.samples = samples;
+    o.seed = 12;
+    const Film film = run(h.program, s, o).film;
+    double colour = 0, luminance = 0;
+    for (std::size_t i = 0; i < film.xyz.size(); ++i) {
+      const auto rgb = [](const std::array<double, 3>& p) {
+        return materials::linear_srgb_of_xyz({p[0], p[1], p[2]});
+      };
+      const Vec3d off = rgb(film.xyz[i]) - rgb(reference.xyz[i]);
+      colour += dot(off, off) / 3;
+      luminance += std::pow(film.xyz[i][1] - reference.xyz[i][1], 2);
+    }
+    INFO("ratio ", std::sqrt(colour / luminance));
+    CHECK(colour < 1.1 * 1.1 * luminance);
+    CHECK(colour > luminance);  // or else what is compared is not the noise of colour
+  }
+}
+
+TEST_CASE("numbers of clusters: digits of the place and of the hero take turns, none is lost") {
+  CHECK(cluster_number(0) == 0);
+  CHECK(cluster_number(0.5f) == 0.0625);  // the first digit: the place, by a sixteenth
+  CHECK(cluster_number(0.25f) == 0.5);    // the second: the hero
+  CHECK(cluster_number(0.125f) == 0.03125);
+  CHECK(cluster_number(0x1p-24f) == 0x1p-24);
+  CHECK(cluster_number(1 - 0x1p-24f) == 1 - 0x1p-24);
+  double sum = 0;
+  for (int i = 0; i < 256; ++i) sum += cluster_number(float(i) / 256) / 256;
+  CHECK(sum == doctest::Approx(0.5 - 0.5 / 256));  // a permutation of i / 256
+}

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures as scripts see them, against lookups written out here: texels of generated files,
+// weighed by the formulas of each filter.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <vector>
+
+#include "materials/colour.h"
+#include "renderer/render.h"
+#include "renderer/textures.h"
+#include "tests/unit/renderer/tiff.h"
+
+using namespace mms;
+using namespace mms::renderer;
+using testing::Texels;
+using testing::TiffNumbers;
+using vm::ImageAsk;
+using vm::ImageUse;
+namespace fs = std::filesystem;
+
+namespace {
+
+Texels random_texels(int width, int height, int channels) {
+  Texels t{width, height, channels, {}};
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> value(-1, 2);
+  for (int k = 0; k < width * height * channels; ++k) t.values.push_back(value(random));
+  return t;
+}
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / "mms_textures_test";
+  Folder() {
+    fs::remove_all(path);
+    fs::create_directories(path);
+  }
+  ~Folder() { fs::remove_all(path); }
+  std::string operator/(const std::string& name) const { return (path / name).string(); }
+
+  std::string write(const std::string& name, const Texels& t,
+                    TiffNumbers numbers = TiffNumbers::Float) const {
+    testing::write_tiff(*this / name, t, numbers);
+    return *this / name;
+  }
+};
+
+ImageUse use_of(const std::string& file) {
+  return {file, "bilinear", "repeat", "linear", "", "raw"};
+}
+
+std::shared_ptr<const vm::Image> open(const ImageUse& use) {
+  const auto source = open_textures(64);
+  auto image = source->open(use);
+  REQUIRE_MESSAGE(image, image.error().what);
+  return *image;
+}
+
+/// Where to look, and how the pixel lies.
+struct Place {
+  float u, v;
+  float across[4] = {0, 0, 0, 0};
+  float blur = 0;
+};
+
+std::vector<double> look_up(const vm::Image& image, ImageAsk ask, const Place& p) {
+  const float arguments[] = {p.u,         p.v,         p.across[0], p.across[1],
+                             p.across[2], p.across[3], p.blur,      p.blur};
+  float results[6];
+  const float* in[8];
+  float* out[6];
+  for (int k = 0; k < 8; ++k) in[k] = arguments + k;
+  for (int k = 0; k < 6; ++k) out[k] = results + k;
+  image.look_up(ask, in, out, 1);
+  return {results, results + vm::result_count(ask)};
+}
+
+/// Column or row `k` of `n` under a wrap mode; -1: black.
+int wrapped(int k, int n, const std::string& wrap) {
+  const int period = ((k % n) + n) % n;
+  if (wrap == "repeat") return period;
+  if (wrap == "clamp") return std::clamp(k, 0, n - 1);
+  if (wrap == "black") return k < 0 || k >= n ? -1 : k;
+  const int round = (k - period) / n;
+  return round % 2 == 0 ? period : n - 1 - period;
+}
+
+/// Weights of the texels from floor(x) - 1 on, x in texels from the middle of the first one, and
+/// how they change with x.
+struct Weights {
+  int first;
+  std::array<double, 4> value, slope;
+};
+Weights weights(double x, const std::string& filter) {
+  if (filter == "nearest") return {int(std::floor(x + 0.5)) - 1, {0, 1, 0, 0}, {}};
+  const int i = int(std::floor(x));
+  const double f = x - i, g = 1 - f;
+  if (filter == "bilinear") return {i - 1, {0, g, f, 0}, {0, -1, 1, 0}};
+  return {i - 1,  // the uniform cubic B-spline
+          {g * g * g / 6, (4 - 6 * f * f + 3 * f * f * f) / 6, (4 - 6 * g * g + 3 * g * g * g) / 6,
+           f * f * f / 6},
+          {-g * g / 2, (-4 * f + 3 * f * f) / 2, (4 * g - 3 * g * g) / 2, f * f / 2}};
+}
+
+/// Value and slopes by u and v of one channel.
+std::array<double, 3> expected(const Texels& t, int c, const ImageUse& use, double u, double v) {
+  const Weights x = weights(u * t.width - 0.5, use.filter);
+  const Weights y = weights((1 - v) * t.height - 0.5, use.filter);
+  std::array<double, 3> sum{};
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i) {
+      const int column = wrapped(x.first + i, t.width, use.wrap);
+      const int row = wrapped(y.first + j, t.height, use.wrap);
+      if (column < 0 || row < 0) continue;
+      const double texel = t.at(column, row, c);
+      sum[0] += x.value[i] * y.value[j] * texel;
+      sum[1] += x.slope[i] * y.value[j] * texel * t.width;
+      sum[2] -= x.value[i] * y.slope[j] * texel * t.height;
+    }
+  return sum;
+}
+
+double luminance(double r, double g, double b) { return 0.2126 * r + 0.7152 * g + 0.0722 * b; }
+
+}  // namespace
+
+TEST_CASE("textures: every filter and wrap mode, with its slopes, is its formula") {
+  const Folder folder;
+  const Texels t = random_texels(12, 9, 3);
+  ImageUse use = use_of(folder.write("a.tif", t));
+  std::mt19937 random(9);
+  std::uniform_real_distribution<float> anywhere(-1.6f, 2.6f);
+  for (const char* filter : {"nearest", "bilinear", "bicubic"})
+    for (const char* wrap : {"repeat", "mirror", "clamp", "black"}) {
+      use.filter = filter;
+      use.wrap = wrap;
+      const auto image = open(use);
+      double worst = 0, worst_slope = 0;
+      for (int k = 0; k < 300; ++k) {
+        const Place p{anywhere(random), anywhere(random)};
+        // The texel changes here, and the slope with it: where a float of u falls is rounding.
+        const double x = p.u * 12 - 0.5, y = (1 - p.v) * 9 - 0.5;
+        const double half = use.filter == "nearest" ? 0.5 : 0;
+        if (std::abs(std::remainder(x + half, 1)) < 1e-3) continue;
+        if (std::abs(std::remainder(y + half, 1)) < 1e-3) continue;
+        const auto colour = look_up(*image, ImageAsk::Colour, p);
+        const auto slope = look_up(*image, ImageAsk::ColourSlope, p);
+        for (int c = 0; c < 3; ++c) {
+          const auto e = expected(t, c, use, p.u, p.v);
+          worst = std::max(worst, std::abs(colour[std::size_t(c)] - e[0]));
+          for (int d = 0; d < 2; ++d)
+            worst_slope = std::max(worst_slope,
+                                   std::abs(slope[std::size_t(2 * c + d)] - e[std::size_t(1 + d)]));
+        }
+      }
+      CAPTURE(filter);
+      CAPTURE(wrap);
+      // 12 u of |u| < 3 is off by 2^-19, and texels differ by up to 3: 6e-6 along either axis,
+      // and the slopes of the cubic by 12 times that, twice.
+      CHECK(worst < 3e-5);
+      CHECK(worst_slope < 1e-3);
+    }
+}
+
+TEST_CASE("textures: channels, luminance, and colours of grey files") {
+  const Folder folder;
+  const Texels t = random_texels(5, 4, 4);
+  ImageUse use = use_of(folder.write("a.tif", t));
+  use.filter = "nearest";
+  const Place p{0.5f, 0.375f};  // column 2, row 2
+  CHECK(look_up(*open(use), ImageAsk::Number, p)[0] ==
+        doctest::Approx(luminance(t.at(2, 2, 0), t.at(2, 2, 1), t.at(2, 2, 2))).epsilon(1e-6));
+  for (const auto& [name, channel] : {std::pair{"G", 1}, {"A", 3}, {"2", 2}}) {
+    use.channel = name;
+    CHECK(look_up(*open(use), ImageAsk::Number, p)[0] == t.at(2, 2, channel));
+  }
+  use.channel = "Q";
+  const auto none = open_textures(64)->open(use);
+  REQUIRE(!none);
+  CHECK(none.error().hint == "its channels are R, G, B, A");
+  const Texels grey = random_texels(5, 4, 1);
+  use = use_of(folder.write("grey.tif", grey));
+  use.filter = "nearest";
+  const double g = grey.at(2, 2, 0);
+  CHECK(look_up(*open(use), ImageAsk::Colour, p) == std::vector<double>{g, g, g});
+  CHECK(look_up(*open(use), ImageAsk::Number, p)[0] == g);
+}
+
+TEST_CASE("textures: colours are made linear before they are filtered") {
+  const Folder folder;
+  Texels t{2, 1, 3, {0, 0.2f, 0.4f, 1, 0.6f, 0.8f}};
+  for (float& v : t.values) v = std::round(v * 255) / 255;  // what 8 bits hold
+  ImageUse use = use_of(folder.write("a.tif", t, TiffNumbers::Byte));
+  const Place middle{0.5f, 0.5f};
+  const auto mean = [&](int c, auto f) { return (f(t.at(0, 0, c)) + f(t.at(1, 0, c))) / 2; };
+  const auto same = [](double x) { return x; };
+  for (const char* space : {"linear", "sRGB", "auto"}) {
+    use.space = space;
+    const auto colour = look_up(*open(use), ImageAsk::Colour, middle);
+    for (int c = 0; c < 3; ++c)
+      CHECK(colour[std::size_t(c)] ==
+            doctest::Approx(use.space == "linear" ? mean(c, same) : mean(c, materials::srgb_decode))
+                .epsilon(1e-6));
+  }
+  double low, high;
+  open(use)->range(low, high);
+  CHECK((low == 0 && high == 1));
+  // Numbers of more than 8 bits are taken for linear.
+  use = use_of(folder.write("float.tif", t));
+  use.space = "auto";
+  CHECK(look_up(*open(use), ImageAsk::Colour, middle)[1] == doctest::Approx(mean(1, same)));
+  use.space = "ultraviolet";
+  const auto none = open_textures(64)->open(use);
+  REQUIRE(!none);
+  CHECK(none.error().what.find("no colour space `ultraviolet`") != std::string::npos);
+}
+
+TEST_CASE("textures: the pixel is filtered away along its own axes") {
+  const Folder folder;
+  // 64 columns, black and white in turn; the same in rows.
+  Texels columns{64, 64, 1, {}}, rows{64, 64, 1, {}};
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      columns.values.push_back(float(x % 2));
+      rows.values.push_back(float(y % 2));
+    }
+  const auto c = open(use_of(folder.write("c.tif", columns)));
+  const auto r = open(use_of(folder.write("r.tif", rows)));
+  const auto value = [](const vm::Image& image, Place p) {
+    return look_up(image, ImageAsk::Number, p)[0];
+  };
+  const float white = 0.5f + 0.5f / 64;  // the middle of a white column
+  const float row = 0.5f + 0.5f / 64;    // and of a black row, counted from below
+  CHECK(value(*c, {white, row}) == 0);
+  const double sharp = value(*c, {white + 1.0f / 64, row});
+  CHECK(sharp == 1);
+  // A pixel as wide as sixteen columns sees their mean; one that is long across them all the more.
+  const Place wide{white, row, {0.25f, 0, 0, 0.25f}};
+  CHECK(value(*c, wide) == doctest::Approx(0.5).epsilon(0.02));
+  CHECK(value(*r, wide) == doctest::Approx(0.5).epsilon(0.02));
+  const Place along_u{white, row, {0.2f, 0, 0, 0.01f}}, along_v{white, row, {0.01f, 0, 0, 0.2f}};
+  CHECK(value(*c, along_u) == doctest::Approx(0.5).epsilon(0.05));
+  CHECK(std::abs(value(*r, along_u) - 0.5) > 0.4);
+  CHECK(value(*r, along_v) == doctest::Approx(0.5).epsilon(0.05));
+  CHECK(std::abs(value(*c, along_v) - 0.5) > 0.4);
+  // So does a blur, in all directions.
+  const Place blurred{white, row, {0, 0, 0, 0}, 0.25f};
+  CHECK(value(*c, blurred) == doctest::Approx(0.5).epsilon(0.02));
+  CHECK(value(*r, blurred) == doctest::Approx(0.5).epsilon(0.02));
+}
+
+TEST_CASE("textures: tiles have their places, and there is nothing outside") {
+  const Folder folder;
+  for (const auto& [number, value] : {std::pair{"1001", 0.25f}, {"1002", 0.5f}, {"1012", 0.75f}})
+    folder.write(std::string("t.") + number + ".tif", {1, 1, 1, {value}});
+  folder.write("t.0001.tif", {1, 1, 1, {9}});
+  const auto image = open(use_of(folder / "t.<UDIM>.tif"));
+  CHECK(image->files().size() == 3);
+  const auto value = [&](float u, float v) { return look_up(*image, ImageAsk::Number, {u, v})[0]; };
+  CHECK(value(0.5f, 0.5f) == 0.25);
+  CHECK(value(1.25f, 0.5f) == 0.5);
+  CHECK(value(1.25f, 1.5f) == 0.75);
+  CHECK(value(0.5f, 1.5f) == 0);
+  CHECK(value(-0.5f, 0.5f) == 0);
+  CHECK(value(NAN, 0.5f) == 0);
+  CHECK(!open_textures(64)->open(use_of(folder / "x.<UDIM>.tif")));
+}
+
+TEST_CASE("textures: what a file states, and its range") {
+  const Folder folder;
+  const Texels t = random_texels(7, 3, 3);
+  const auto image = open(use_of(folder.write("a.tif", t)));
+  CHECK(image->number("width") == 7);
+  CHECK(image->number("height") == 3);
+  CHECK(image->number("channels") == 3);
+  CHECK(image->number("XResolution") == 2.5);
+  CHECK(!image->number("nothing"));
+  double low, high;
+  image->range(low, high);
+  const auto [least, most] = std::minmax_element(t.values.begin(), t.values.end());
+  CHECK(low <= *least);
+  CHECK(low >= std::min(*least, 0.0f));
+  CHECK(high == *most);
+}
+
+TEST_CASE("textures: what is no picture or is cut off is an error") {
+  const Folder folder;
+  folder.write("a.tif", random_texels(64, 64, 3));
+  fs::copy_file(MMS_SOURCE_DIR "/docs/images/hero.png", folder / "a.png");
+  Film film{64, 64, {}, {}};
+  film.xyz.resize(64 * 64, {0.5, 0.25, 1});
+  film.variance.resize(64 * 64, 0);
+  REQUIRE(write_image(folder / "a.exr", film, {}));
+  for (const char* name : {"a.tif", "a.png", "a.exr"}) {
+    CAPTURE(name);
+    const std::string file = folder / name;
+    CHECK(open_textures(64)->open(use_of(file)));
+    fs::resize_file(file, fs::file_size(file) / 2);
+    const auto half = open_textures(64)->open(use_of(file));
+    REQUIRE(!half);
+    CHECK(half.error().what.find('\n') == std::string::npos);
+  }
+  std::ofstream(folder / "text.png") << "no picture";
+  CHECK(!open_textures(64)->open(use_of(folder / "text.png")));
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// What the verbs that render share: from a script and options to a scene that is ready, and what
+/// is said of a render.
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "renderer/render.h"
+#include "tools/render.h"
+#include "tools/script.h"
+
+namespace mms::tools {
+
+/// A script, linked and bound to a scene.
+struct RenderJob {
+  std::shared_ptr<const Compiled> linked;
+  renderer::Scene scene;
+  std::uint64_t script = 0;  ///< hash of the linked program, wherever its files are
+};
+
+/// Compiles `file` and loads the scene; empty after saying what is wrong with them.
+std::optional<RenderJob> prepare(const RenderRequest& request, const std::string& file, Exit& exit);
+
+/// What the command asked for; Ctrl-C stops it.
+renderer::RenderOptions render_options(const RenderRequest& request);
+
+/// Makes Ctrl-C and SIGTERM stop renders; the second one ends the process.
+void catch_interrupts();
+bool interrupted();
+
+/// File name without folder and extension; `stdin` of `-`.
+std::string stem(const std::string& file);
+
+/// One line, or the counters, or JSON; and warnings.
+void print_report(const RenderRequest& request, const std::string& script, const std::string& path,
+                  const renderer::Report& r);
+
+}  // namespace mms::tools

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/render_job.h"
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "api/library.h"
+#include "base/hash.h"
+#include "vm/serialise.h"
+
+namespace mms::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// The one global: a signal handler can reach nothing else.
+std::atomic<bool> stop{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+extern "C" void on_interrupt(int signal) {
+  stop = true;
+  std::signal(signal, SIG_DFL);  // a second Ctrl-C ends at once
+}
+
+/// The surface that the test object wears: asked for, or the only one, or the one named like the
+/// script, or the first, and then a note says so. Empty: whatever the scene says.
+std::string choose_surface(const RenderRequest& request, const std::string& file,
+                           const vm::Program& program) {
+  if (!request.surface.empty()) return request.surface;
+  std::vector<std::string> names;
+  for (const vm::Descriptor& d : program.descriptors)
+    if (d.form == vm::DescriptorForm::Surface) names.push_back(d.name);
+  if (names.empty()) return "";
+  for (const std::string& name : names)
+    if (name == stem(file)) return name;
+  if (names.size() > 1 && !request.quiet)
+    fmt::print(stderr, "note: {}: {} surfaces; rendering `{}` (--surface takes another: {})\n",
+               file, names.size(), names[0], fmt::join(names.begin() + 1, names.end(), ", "));
+  return names[0];
+}
+
+/// What a scene that did not load means: no such file, no such built-in scene, or a wrong one.
+Exit scene_exit(const std::string& name) {
+  for (const std::string& known : renderer::builtin_scenes())
+    if (name == known) return Exit::Script;
+  std::error_code ignored;
+  if (fs::exists(name, ignored)) return Exit::Script;
+  return name.ends_with(".json") || name.find('/') != std::string::npos ? Exit::File : Exit::Usage;
+}
+
+/// A number for the linked program, the same wherever its files are.
+std::uint64_t script_hash(const vm::Program& program) {
+  vm::Package package{program, {}, {}};
+  for (std::string& name : package.program.sources) name.clear();
+  const std::vector<std::byte> bytes = vm::save(package, api::standard_library().builtins);
+  return hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+Json to_json(const std::string& script, const std::string& path, const renderer::Report& r) {
+  Json faults = Json::array();
+  for (const renderer::FaultCount& f : r.faults)
+    faults.push_back({{"where", f.where}, {"cause", f.cause}, {"lanes", f.lanes}});
+  return {{"script", script},
+          {"picture", path},
+          {"samples", r.samples},
+          {"seconds", r.seconds},
+          {"error", r.rmse},
+          {"threads", r.threads},
+          {"paths", r.paths},
+          {"rays", r.rays},
+          {"shadow_rays", r.shadow_rays},
+          {"script_runs", r.script_runs},
+          {"script_points", r.script_points},
+          {"batch_fill", r.batch_fill},
+          {"pass_runs", r.pass_runs},
+          {"emission_runs", r.emission_runs},
+          {"medium_runs", r.medium_runs},
+          {"media_steps", r.media_steps},
+          {"medium_samples", r.medium_samples},
+          {"denser_samples", r.denser_samples},
+          {"dropped_nan", r.dropped.nan},
+          {"dropped_infinite", r.dropped.infinite},
+          {"dropped_overflow", r.dropped.overflow},
+          {"fault_lanes", r.fault_lanes},
+          {"faults", faults},
+          {"stopped", r.stopped}};
+}
+
+}  // namespace
+
+std::string stem(const std::string& file) {
+  return file == "-" ? "stdin" : fs::path(file).stem().string();
+}
+
+bool interrupted() { return stop; }
+
+void catch_interrupts() {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);  // what batch systems send
+}
+
+std::optional<RenderJob> prepare(const RenderRequest& request, const std::string& file,
+                                 Exit& exit) {
+  const auto give_up = [&](Exit code, const Error& error) {
+    exit = fail(code, error, request);
+    return std::nullopt;
+  };
+  auto linked = compile_files({file}, request, exit);
+  if (!linked) return {};
+  if (linked->program.descriptors.empty())
+    return give_up(Exit::Script, {file, "nothing to render: no surface and no volume",
+                                  "add one: surface \"plain\" bsdf = matte(0.5); end"});
+  auto program = std::make_shared<const Compiled>(std::move(*linked));
+  const renderer::SceneSource source{request.scene, choose_surface(request, file, program->program),
+                                     request.volume, request.turn};
+  const auto scene = renderer::load_scene(program->program, source);
+  if (!scene) return give_up(scene_exit(request.scene), scene.error());
+  return RenderJob{program, *scene, script_hash(program->program)};
+}
+
+renderer::RenderOptions render_options(const RenderRequest& request) {
+  renderer::RenderOptions options;
+  options.width = request.width;
+  options.height = request.height;
+  options.first_sample = request.first_sample;
+  options.samples = request.end_sample;
+  options.seconds = request.seconds;
+  options.error = request.error_limit;
+  options.filter = *renderer::filter_named(request.filter);
+  options.estimator = *renderer::estimator_named(request.estimator);
+  options.generator = *renderer::generator_named(request.sampler);
+  options.threads = request.thread_count;
+  options.seed = request.seed_number;
+  options.max_depth = request.depth;
+  options.stop = &stop;
+  return options;
+}
+
+void print_report(const RenderRequest& request, const std::string& script, const std::string& path,
+                  const renderer::Report& r) {
+  const Json json = to_json(script, path, r);
+  if (request.json()) {
+    fmt::print("{}\n", json.dump());
+  } else if (!request.quiet) {
+    fmt::print("{}: {} samples per pixel, {:.2f} s, estimated error {:.2g}\n", path, r.samples,
+               r.seconds, r.rmse);
+    if (request.report)
+      for (const auto& [name, value] : json.items())
+        if (value.is_number()) fmt::print("  {:<18}{}\n", name, value.dump());
+  }
+  std::fflush(stdout);
+  if (r.dropped.count() > 0)
+    fmt::print(
+        stderr,
+        "warning: {}: {} samples were not finite and were left out; the first: pixel ({}, {}), "
+        "sample {}\n",
+        script, r.dropped.count(), r.dropped.first_x, r.dropped.first_y, r.dropped.first_sample);
+  if (r.denser_samples > 0)
+    fmt::print(stderr,
+               "warning: {}: volume denser than its bound: {} of {} samples; it was taken to be as "
+               "dense as the bound there\n",
+               script, r.denser_samples, r.medium_samples);
+  for (const renderer::FaultCount& f : r.faults)
+    fmt::print(stderr, "warning: {}: {} at {} points: the output's default was taken there\n",
+               f.where, f.cause, f.lanes);
+}
+
+}  // namespace mms::tools

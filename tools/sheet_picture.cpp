@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/sheet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "renderer/film_file.h"
+#include "renderer/picture.h"
+#include "renderer/sheet.h"
+#include "tools/output.h"
+#include "tools/render_job.h"
+
+namespace mms::tools {
+
+namespace {
+
+/// More columns make captions too small to read on a screen.
+constexpr int kMostColumns = 8;
+
+/// One param at values from `low` to `high`.
+struct Sweep {
+  std::string param;
+  double low = 0, high = 0;
+  int steps = 1;
+
+  std::string value(int i) const {
+    return fmt::format("{:.6g}", low + (high - low) * i / std::max(1, steps - 1));
+  }
+};
+
+/// `roughness=0:1:6`; nothing where no sweep is asked for.
+Result<std::optional<Sweep>> read_sweep(const std::string& text) {
+  if (text.empty()) return std::optional<Sweep>();
+  const Error wrong{"--sweep", fmt::format("`{}` is no sweep", text),
+                    "a param, its first and last value and how many, as in roughness=0:1:6"};
+  const std::size_t equals = text.find('='), first = text.find(':'), last = text.rfind(':');
+  if (equals == 0 || equals == std::string::npos || first == last || first < equals) return wrong;
+  const auto low = number<double>(text.substr(equals + 1, first - equals - 1));
+  const auto high = number<double>(text.substr(first + 1, last - first - 1));
+  const auto steps = number<long long>(text.substr(last + 1));
+  if (!low || !high || !steps || *steps < 2 || *steps > 400 || !std::isfinite(*low) ||
+      !std::isfinite(*high))
+    return wrong;
+  return std::optional<Sweep>({text.substr(0, equals), *low, *high, int(*steps)});
+}
+
+/// One tile to be: a script with settings.
+struct Variant {
+  std::string file, caption;
+  RenderRequest request;
+};
+
+std::vector<Variant> variants(const RenderRequest& request, const std::optional<Sweep>& sweep) {
+  std::vector<Variant> all;
+  for (const std::string& file : request.files) {
+    if (!sweep) {
+      all.push_back({file, stem(file), request});
+      continue;
+    }
+    for (int i = 0; i < sweep->steps; ++i) {
+      Variant v{file, fmt::format("{} = {}", sweep->param, sweep->value(i)), request};
+      if (request.files.size() > 1) v.caption = stem(file) + ": " + v.caption;
+      v.request.settings.push_back(sweep->param + "=" + sweep->value(i));
+      all.push_back(std::move(v));
+    }
+  }
+  return all;
+}
+
+/// Renders one tile; its pixels are left empty where that fails.
+Exit render_tile(const Variant& v, renderer::SheetTile& tile) {
+  tile.caption = v.caption;
+  Exit exit = Exit::Ok;
+  const auto job = prepare(v.request, v.file, exit);
+  if (!job) return exit;
+  const auto r = renderer::render(job->linked->program, job->scene, render_options(v.request));
+  if (!r) return fail(Exit::Budget, r.error(), v.request);
+  auto pixels = renderer::display_pixels(r->film, view_of(v.request));
+  if (!pixels) return fail(Exit::File, pixels.error(), v.request);
+  tile.pixels = std::move(*pixels);
+  print_report(v.request, v.file, v.caption, r->report);
+  return r->report.too_many_faults ? Exit::Budget : r->report.stopped ? Exit::Interrupted : exit;
+}
+
+std::string sheet_path(const RenderRequest& request) {
+  const std::string name = stem(request.files[0]) + ".png";
+  if (request.output.empty()) return name;
+  std::error_code ignored;
+  if (request.output.back() == '/' || std::filesystem::is_directory(request.output, ignored))
+    return (std::filesystem::path(request.output) / name).string();
+  return request.output;
+}
+
+}  // namespace
+
+bool wants_sheet(const RenderRequest& request) {
+  return !request.sweep.empty() || (request.files.size() > 1 && request.output.ends_with(".png"));
+}
+
+Exit render_sheet(const RenderRequest& request) {
+  const auto sweep = read_sweep(request.sweep);
+  if (!sweep) return fail(Exit::Usage, sweep.error(), request);
+  const std::string path = sheet_path(request);
+  if (!path.ends_with(".png"))
+    return fail(Exit::Usage, {"-o", "a sheet is a .png", "name one, or render one picture"},
+                request);
+  if (const auto ok = check_output({path}, request); !ok)
+    return fail(Exit::File, ok.error(), request);
+  const std::vector<Variant> all = variants(request, *sweep);
+  std::vector<renderer::SheetTile> tiles(all.size());
+  Exit worst = Exit::Ok;
+  for (std::size_t i = 0; i < all.size() && !interrupted(); ++i)
+    worst = std::max(worst, render_tile(all[i], tiles[i]));
+  if (std::all_of(tiles.begin(), tiles.end(), [](const auto& t) { return t.pixels.empty(); }))
+    return worst;
+  // A sweep of few steps stays in one row; a row for each script.
+  const int count = int(tiles.size());
+  const bool rows = *sweep && (*sweep)->steps <= kMostColumns;
+  const int columns =
+      rows ? (*sweep)->steps : std::min(kMostColumns, int(std::ceil(std::sqrt(count))));
+  const renderer::Sheet sheet = renderer::make_sheet(tiles, request.width, request.height, columns);
+  const auto written = renderer::write_png(path, sheet.width, sheet.height, sheet.pixels);
+  if (!written) return fail(Exit::File, written.error(), request);
+  if (!sheet.captions && !request.quiet)
+    fmt::print(stderr, "note: {}: no captions, since there is no font: install fonts-dejavu-core\n",
+               path);
+  if (!request.quiet && !request.json())
+    fmt::print("{}: {} pictures of {}x{}\n", path, count, request.width, request.height);
+  return worst;
+}
+
+}  // namespace mms::tools

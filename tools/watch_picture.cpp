@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/watch.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <thread>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "renderer/film_file.h"
+#include "renderer/picture.h"
+#include "tools/output.h"
+#include "tools/render_job.h"
+
+namespace mms::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+/// How often files are looked at: soon enough to feel immediate, at no cost that could be measured.
+constexpr std::chrono::milliseconds kGlance{20};
+
+/// The first picture has a sixteenth of the pixels.
+constexpr int kCoarse = 4;
+
+/// Between two pictures that refine.
+constexpr double kRefineSeconds = 0.4;
+
+/// What tells that a file is another one: replaced, written to, made or removed.
+struct Stamp {
+  std::int64_t seconds = 0, nanoseconds = 0, size = -1;
+  std::uint64_t node = 0;
+  bool operator==(const Stamp&) const = default;
+};
+
+Stamp stamp(const std::string& path) {
+  struct stat s {};
+  if (::stat(path.c_str(), &s) != 0) return {};
+  return {s.st_mtim.tv_sec, s.st_mtim.tv_nsec, s.st_size, s.st_ino};
+}
+
+/// How many scripts there are in a folder.
+int scripts_in(const std::string& folder) {
+  int count = 0;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    count += entry.path().extension() == ".mms";
+  return count;
+}
+
+class WatchedFiles {
+ public:
+  void add(const std::string& path) { files_.emplace(path, stamp(path)); }
+
+  /// Every script of a folder, and those that come.
+  void add_folder(const std::string& folder) {
+    folders_.emplace(folder, scripts_in(folder));
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+      if (entry.path().extension() == ".mms") add(entry.path().string());
+  }
+
+  bool changed() const {
+    return std::any_of(files_.begin(), files_.end(),
+                       [](const auto& f) { return stamp(f.first) != f.second; }) ||
+           std::any_of(folders_.begin(), folders_.end(),
+                       [](const auto& f) { return scripts_in(f.first) != f.second; });
+  }
+
+ private:
+  std::map<std::string, Stamp> files_;
+  std::map<std::string, int> folders_;
+};
+
+/// Names of files in a scene: meshes and pictures.
+void add_files_of(const nlohmann::json& json, const fs::path& folder, WatchedFiles& files) {
+  if (json.is_string()) {
+    const fs::path path = folder / json.get<std::string>();
+    std::error_code ignored;
+    if (fs::is_regular_file(path, ignored)) files.add(path.string());
+  }
+  if (json.is_structured())
+    for (const auto& part : json) add_files_of(part, folder, files);
+}
+
+void add_scene(const std::string& scene, WatchedFiles& files) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(scene, ignored)) return;
+  files.add(scene);
+  std::ifstream in(scene);
+  const auto json = nlohmann::json::parse(in, nullptr, false, true);
+  if (!json.is_discarded()) add_files_of(json, fs::path(scene).parent_path(), files);
+}
+
+/// Where a script did not link it is not known what it imports: all scripts that it might.
+void add_neighbours(const RenderRequest& request, const std::string& file, WatchedFiles& files) {
+  const std::string own = fs::path(file).parent_path().string();
+  files.add_folder(own.empty() ? "." : own);
+  for (const std::string& folder : request.import_path) files.add_folder(folder);
+}
+
+/// Each pixel of a coarse picture as a square of the whole one.
+renderer::Film enlarged(const renderer::Film& coarse, int width, int height) {
+  renderer::Film film{width, height, {}, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int row = std::min(y / kCoarse, coarse.height - 1);
+      const int column = std::min(x / kCoarse, coarse.width - 1);
+      const std::size_t i = std::size_t(row) * std::size_t(coarse.width) + std::size_t(column);
+      film.xyz.push_back(coarse.xyz[i]);
+      film.variance.push_back(coarse.variance[i]);
+    }
+  return film;
+}
+
+/// One version of the files, from the coarse picture to the last.
+class Version {
+ public:
+  Version(const RenderRequest& request, const RenderJob& job, const std::string& file,
+          const std::string& path, const std::atomic<bool>& stop)
+      : request_(request), job_(job), file_(file), path_(path), options_(render_options(request)) {
+    options_.stop = &stop;
+  }
+
+  void render(Clock::time_point asked) {
+    if (!begin()) return;
+    print_first(std::chrono::duration<double>(Clock::now() - asked).count());
+    options_.save = [this](const renderer::PartialFilm& film) { refine(film); };
+    options_.save_seconds = kRefineSeconds;
+    options_.layers = path_.ends_with(".exr");
+    const auto r = renderer::render(job_.linked->program, job_.scene, options_);
+    if (!r) {
+      fail(Exit::Budget, r.error(), request_);
+      return;
+    }
+    if (r->report.stopped && !interrupted()) return;  // another version is there
+    const renderer::FilmKey key = renderer::film_key(job_.scene, options_, job_.script);
+    write({r->film, r->layers.get(), metadata(path_, key, *r->sums)});
+    print_report(request_, file_, path_, r->report);
+  }
+
+ private:
+  bool begin() {
+    renderer::RenderOptions coarse = options_;
+    coarse.width = std::max(1, options_.width / kCoarse);
+    coarse.height = std::max(1, options_.height / kCoarse);
+    coarse.first_sample = 0;
+    coarse.samples = 1;
+    coarse.filter = renderer::FilterShape::Box;
+    const auto r = renderer::render(job_.linked->program, job_.scene, coarse);
+    if (!r) {
+      fail(Exit::Budget, r.error(), request_);
+      return false;
+    }
+    first_ = enlarged(r->film, options_.width, options_.height);
+    return write({first_});
+  }
+
+  /// What is there; where nothing is yet, the coarse picture.
+  void refine(const renderer::PartialFilm& sums) {
+    renderer::Film film = sums.develop();
+    for (std::size_t i = 0; i < film.xyz.size(); ++i)
+      if (film.samples[i] == 0) film.xyz[i] = first_.xyz[i];
+    write({film});
+  }
+
+  bool write(const renderer::Picture& picture) {
+    const auto written = renderer::write_picture(path_, picture, view_of(request_));
+    if (!written) fail(Exit::File, written.error(), request_);
+    return bool(written);
+  }
+
+  void print_first(double seconds) const {
+    if (request_.json())
+      fmt::print("{}\n",
+                 nlohmann::ordered_json{
+                     {"script", file_}, {"picture", path_}, {"first_picture_seconds", seconds}}
+                     .dump());
+    else if (!request_.quiet)
+      fmt::print("{}: first picture after {:.3f} s\n", path_, seconds);
+    std::fflush(stdout);
+  }
+
+  const RenderRequest& request_;
+  const RenderJob& job_;
+  const std::string &file_, &path_;
+  renderer::RenderOptions options_;
+  renderer::Film first_;
+};
+
+}  // namespace
+
+Exit watch(const RenderRequest& request, const std::string& file, const std::string& path) {
+  Clock::time_point asked = Clock::now();
+  while (!interrupted()) {
+    WatchedFiles files;
+    files.add(file);
+    Exit exit = Exit::Ok;
+    const auto job = prepare(request, file, exit);
+    std::fflush(stdout);  // messages as JSON
+    if (job)
+      for (const std::string& name : job->linked->dependencies) files.add(name);
+    else
+      add_neighbours(request, file, files);
+    add_scene(request.scene, files);
+    std::atomic<bool> stop{false};
+    const std::jthread glances([&] {
+      while (!interrupted() && !files.changed()) std::this_thread::sleep_for(kGlance);
+      stop = true;
+      stop.notify_all();
+    });
+    if (job) Version(request, *job, file, path, stop).render(asked);
+    stop.wait(false);
+    asked = Clock::now();
+    // Let an editor finish what it writes.
+    std::this_thread::sleep_for(kGlance);
+  }
+  return Exit::Interrupted;
+}
+
+}  // namespace mms::tools

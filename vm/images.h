@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Pictures from files, as scripts look them up. Who reads the files is handed in: the machine and
+/// the linker know this interface alone.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "vm/builtin.h"
+
+namespace mms::vm {
+
+/// Which picture, and how it is read. The words are those of the tables below.
+struct ImageUse {
+  std::string file;    ///< `<UDIM>` stands for the numbers of tiles, 1001 on
+  std::string filter;  ///< between texels
+  std::string wrap;    ///< outside [0, 1]
+  std::string space;   ///< of the file's numbers: `auto`, `linear`, `sRGB`, or one of OpenColorIO
+  std::string
+      channel;  ///< of a number: a name or a place from 0; empty: luminance, or the only one
+  std::string storage;  ///< in memory
+  friend bool operator==(const ImageUse&, const ImageUse&) = default;
+};
+
+/// A word that a script may write, and what it means: the manual prints it.
+struct ImageWord {
+  std::string_view word, doc;
+};
+inline constexpr ImageWord kImageFilters[] = {
+    {"nearest", "the texel itself"},
+    {"bilinear", "straight between texels"},
+    {"bicubic", "a cubic B-spline: smooth, and a little soft"},
+    {"smart", "bicubic where the picture is magnified, else bilinear"},
+};
+inline constexpr ImageWord kImageWraps[] = {
+    {"repeat", "again and again"},
+    {"mirror", "again and again, every other one mirrored"},
+    {"clamp", "the texels of the border"},
+    {"black", "0"},
+};
+inline constexpr ImageWord kImageStorages[] = {
+    {"raw", "as the file has it; what fits the budget is in memory"},
+};
+
+/// What a row wants of a picture.
+enum class ImageAsk : std::uint8_t { Number, NumberSlope, Colour, ColourSlope };
+constexpr int result_count(ImageAsk ask) {
+  constexpr int kCounts[] = {1, 2, 3, 6};
+  return kCounts[static_cast<int>(ask)];
+}
+/// Reals that say where: the point, its change across the pixel's x and y axis, and the blur, each
+/// u and v. (0, 0) is the lower left corner of the picture, (1, 1) the upper right one.
+inline constexpr int kImageArguments = 8;
+
+/// An open picture. Immutable; any number of threads may ask.
+class Image {
+ public:
+  virtual ~Image() = default;
+  /// Fills result_count(ask) blocks. Slopes are by u and v: of red by u, by v, of green by u, ...
+  /// Where an argument is not finite the results are 0.
+  virtual void look_up(ImageAsk ask, const float* const* in, float* const* out,
+                       int lanes) const = 0;
+  /// `width`, `height`, `channels`, or a number that the file itself states by that name.
+  virtual std::optional<double> number(std::string_view name) const = 0;
+  /// Nothing but slopes is ever outside.
+  virtual void range(double& low, double& high) const = 0;
+  /// The files it is read from.
+  virtual std::vector<std::string> files() const = 0;
+};
+
+/// Opens pictures.
+class ImageSource {
+ public:
+  virtual ~ImageSource() = default;
+  /// The error's `what` goes on after the file's name: `does not exist`.
+  virtual Result<std::shared_ptr<const Image>> open(const ImageUse& use) = 0;
+};
+
+/// What stands for a picture that is not there: magenta everywhere; as a number 1.
+std::shared_ptr<const Image> magenta();
+
+/// A picture of a program. Stored programs have it opened after they are loaded.
+struct ProgramImage {
+  ImageUse use;
+  std::shared_ptr<const Image> image;  ///< null: magenta
+  friend bool operator==(const ProgramImage& a, const ProgramImage& b) { return a.use == b.use; }
+};
+
+/// Looks up lanes whose first argument is the place of a picture among `count` images; others are
+/// magenta.
+template <class R>
+void look_up(ImageAsk ask, const Image* const* images, int count, const void* const* in,
+             void* const* out, int lanes);
+
+template <ImageAsk ask, class R>
+void image_kernel(const Image* const* images, int count, const void* const* in, void* const* out,
+                  int lanes) {
+  look_up<R>(ask, images, count, in, out, lanes);
+}
+template <ImageAsk ask, class R>
+void no_image_kernel(const void* const* in, void* const* out, int lanes) {
+  look_up<R>(ask, nullptr, 0, in, out, lanes);
+}
+
+/// All kernels of `ask` in a row.
+template <ImageAsk ask>
+constexpr Builtin image_builtin(Builtin row) {
+  row.f32 = no_image_kernel<ask, float>;
+  row.f64 = no_image_kernel<ask, double>;
+  row.image32 = image_kernel<ask, float>;
+  row.image64 = image_kernel<ask, double>;
+  return row;
+}
+
+}  // namespace mms::vm
