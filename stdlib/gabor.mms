@@ -5,7 +5,9 @@
 /// x near 0, never beyond -1 and 1: x / (1 + x^4)^(1/4).
 /// >>> limited(0.1)
 /// 0.0999975
-real limited(real x) = x / sqrt(sqrt(1.0 + x * x * x * x));
+real limited(real x)
+    square = x * x;
+    return clamp(x / sqrt(sqrt(1.0 + square * square)), -1.0, 1.0);
 
 /// What is left of a wave in the mean over a pixel that is that many waves wide: sin(pi x) / (pi x); 0
 /// from 1 on.
