@@ -70,6 +70,54 @@ real simplex_gradient(real x) = simplex_gradient(x, 0, 0.0);
 /// true
 real[n] simplex_gradient(real[n] p) = simplex_gradient(p, 0, array(n, function(k) -> 0.0));
 
+// Places of one coordinate may be written as arrays, so that what is said of any number of
+// dimensions holds for one.
+
+/// `perlin` of the only coordinate.
+/// >>> perlin([0.3]) == perlin(0.3)
+/// true
+real perlin(real[1] p) = perlin(p[0]);
+
+/// `perlin` of the only coordinate, with that seed and period.
+/// >>> perlin([0.3], 7, [6]) == perlin(0.3, 7, 6)
+/// true
+real perlin(real[1] p, integer seed, real[1] period) = perlin(p[0], seed, period[0]);
+
+/// `valuenoise` of the only coordinate.
+/// >>> valuenoise([0.3]) == valuenoise(0.3)
+/// true
+real valuenoise(real[1] p) = valuenoise(p[0]);
+
+/// `valuenoise` of the only coordinate, with that seed and period.
+/// >>> valuenoise([0.3], 7, [6]) == valuenoise(0.3, 7, 6)
+/// true
+real valuenoise(real[1] p, integer seed, real[1] period) = valuenoise(p[0], seed, period[0]);
+
+/// `simplex` of the only coordinate.
+/// >>> simplex([0.3]) == simplex(0.3)
+/// true
+real simplex(real[1] p) = simplex(p[0]);
+
+/// `simplex` of the only coordinate, with that seed and period.
+/// >>> simplex([0.3], 7, [6]) == simplex(0.3, 7, 6)
+/// true
+real simplex(real[1] p, integer seed, real[1] period) = simplex(p[0], seed, period[0]);
+
+/// `cellnoise` of the only coordinate.
+/// >>> cellnoise([0.3]) == cellnoise(0.3)
+/// true
+real cellnoise(real[1] p) = cellnoise(p[0]);
+
+/// `cellnoise` of the only coordinate, with that seed and period.
+/// >>> cellnoise([0.3], 7, [6]) == cellnoise(0.3, 7, 6)
+/// true
+real cellnoise(real[1] p, integer seed, real[1] period) = cellnoise(p[0], seed, period[0]);
+
+/// `hash` of the only coordinate and a seed.
+/// >>> hash([0.3], 7) == hash(0.3, 7)
+/// true
+real hash(real[1] p, integer seed) = hash(p[0], seed);
+
 /// `cellnoise` of that seed.
 /// >>> cellnoise([0.3, 0.7], 0) == cellnoise([0.3, 0.7])
 /// true

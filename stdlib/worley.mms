@@ -118,7 +118,9 @@ real worley_edge(
     ways = worley_border(p, seed, period, jitter);
     a    = array(n, function(k) -> ways[k]);
     b    = array(n, function(k) -> ways[n + k]);
-    return 0.5 * fold(#+, 0.0, (b + a) * (b - a)) / sqrt(fold(#+, 0.0, (b - a) * (b - a)));
+    step = b - a;
+    size = max(sqrt(fold(#+, 0.0, step * step)), 1e-6);
+    return clamp(0.5 * fold(#+, 0.0, (b + a) * step) / size, 0.0, 2.0 * sqrt(n));
 
 /// A number in [0, 1) for each cell of the nearest points.
 /// >>> worley_id([0.3, 0.7]) == worley_id([0.31, 0.69])
