@@ -102,6 +102,8 @@ class Bsdf {
 
 // ---- implementation
 
+static_assert(kMaxGloss == axes::kLargestGloss, "a coat's table ends where gloss does");
+
 namespace detail {
 
 /// True of models that can be a delta, and of those that can be something else.

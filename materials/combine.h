@@ -14,16 +14,22 @@
 /// layer twice, along the refracted directions: exp(-absorption thickness (1 / c + 1 / c')) on
 /// `base`, where c^2 = 1 - (1 - |wo.z|^2) / ior^2, c' alike for wi.
 ///
-/// All are symmetric. Measured for a white matte under a white `glossy` of gloss 1 to 1000 and
-/// index 1.2 to 2.5: the mean of F and F' as the coat's factor reaches albedo 1.021, sqrt(F
-/// F') 1.013, F at the half vector 1.004; min(F, F') never exceeds 1 and loses only near grazing
-/// (gloss 40, index 1.5: 0.997 at 60 degrees, 0.983 at 75, 0.895 at 85, 0.60 at 89.99). As min(F,
-/// F') <= F and 1 - max(F, F') <= 1 - F, a lossless base under a lossless coat never exceeds albedo
-/// 1, and a specular coat over a Lambert base is 1 exactly. Of nested `fresnel_mix`, only the one
-/// nearest the Lambert lobe uses the product, for the same bound.
+/// All are symmetric. As min(F, F') <= F and 1 - max(F, F') <= 1 - F, a lossless base under a
+/// lossless coat never exceeds albedo 1, and a specular coat over a Lambert base is 1 exactly; but
+/// near grazing a broad coat loses much: min(F, F') is small where F' is.
+///
+/// Where the coat is one `glossy` and the index above 1, what it reflects is known: with M(wo) the
+/// mean of F' over what it scatters (materials/energy.h) its factor is
+///   coat: (F + F') / 2          which reflects E(wo) = (F + M(wo)) / 2
+///   base: 1 - max(E, E')        or, for the Lambert lobes right below it,
+///         (1 - E)(1 - E') / (1 - mean F)   as the means of E and F are the same
+/// so that a white matte under a white gloss is 1 in every direction, within 1e-3 (2e-3 for an
+/// index below 1.1). Of nested
+/// `fresnel_mix`, only the one nearest the Lambert lobe uses the product, for the same bound.
 
 #include <array>
 
+#include "materials/energy.h"
 #include "materials/fresnel.h"
 #include "materials/layout.h"
 #include "materials/lobe.h"
@@ -63,20 +69,67 @@ inline void fresnel_splits(const R* ior, R c, Spectrum<R>& reflected, Spectrum<R
   });
 }
 
+/// The gloss of the child `node` where it is a `glossy` that is not a mirror; else negative.
 template <class R>
-inline void weigh_fresnel_mix(const R* ior, R cos_o, R cos_i, const NodeWeight<R>& w,
+inline R gloss_of(const Layout& layout, const R* params, int node) {
+  const Layout::Node& n = layout.nodes()[node];
+  if (n.lobe != Lobe::Glossy) return -1;
+  const R gloss = non_negative(params[n.first_param + kWavelengths]);
+  return gloss <= R(axes::kLargestGloss) ? gloss : R(-1);
+}
+
+/// Reflected and transmitted by a coat of that gloss (negative: unknown) in all, and the factor of
+/// its lobe for one pair of directions.
+template <class R>
+struct CoatFactors {
+  R coat, base, lambert;
+};
+
+template <class R>
+inline CoatFactors<R> coat_factors(R eta, R gloss, R cos_o, R cos_i, FresnelSplit<R> o,
+                                   FresnelSplit<R> i) {
+  const R kept = 1 - fresnel_dielectric_diffuse(eta);
+  R coat = std::min(o.reflected, i.reflected);
+  if (gloss >= 0 && eta > 1) {
+    coat = (o.reflected + i.reflected) / 2;
+    o.transmitted = (o.transmitted + 1 - glossy_mean_fresnel(gloss, eta, cos_o, o.reflected)) / 2;
+    i.transmitted = (i.transmitted + 1 - glossy_mean_fresnel(gloss, eta, cos_i, i.reflected)) / 2;
+  }
+  return {coat, std::min(o.transmitted, i.transmitted),
+          kept > 0 ? o.transmitted * i.transmitted / kept : R(0)};
+}
+
+template <class R>
+inline void weigh_fresnel_mix(const R* ior, R gloss, R cos_o, R cos_i, const NodeWeight<R>& w,
                               NodeWeight<R>& base, NodeWeight<R>& coat) {
-  Spectrum<R> ro, to, ri, ti, diffuse;
-  fresnel_splits(ior, cos_o, ro, to);
-  fresnel_splits(ior, cos_i, ri, ti);
+  cos_o = limited(cos_o, R(0), R(1));
+  cos_i = limited(cos_i, R(0), R(1));
+  CoatFactors<R> f{};
   for_each_index(ior, [&](int j, bool repeated) {
-    diffuse[j] = repeated ? diffuse[j - 1]
-                          : 1 - fresnel_dielectric_diffuse(relative_eta(ior[j], Vec3<R>{0, 0, 1}));
+    const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
+    if (!repeated)
+      f = coat_factors(eta, gloss, cos_o, cos_i, fresnel_split(cos_o, eta),
+                       fresnel_split(cos_i, eta));
     // The factor of an outer mix stays in its bounded form: w.other, not w.lambert.
-    coat.other[j] = coat.lambert[j] = w.other[j] * std::min(ro[j], ri[j]);
-    base.other[j] = w.other[j] * std::min(to[j], ti[j]);
-    base.lambert[j] = diffuse[j] > 0 ? w.other[j] * to[j] * ti[j] / diffuse[j] : R(0);
+    coat.other[j] = coat.lambert[j] = w.other[j] * f.coat;
+    base.other[j] = w.other[j] * f.base;
+    base.lambert[j] = w.other[j] * f.lambert;
   });
+}
+
+/// Roughly how a coat splits what comes along `cos_o`.
+template <class R>
+inline void choose_fresnel_mix(const R* ior, R gloss, R cos_o, Spectrum<R>& reflected,
+                               Spectrum<R>& transmitted) {
+  fresnel_splits(ior, cos_o, reflected, transmitted);
+  if (gloss < 0) return;
+  for (int j = 0; j < kWavelengths; ++j) {
+    const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
+    if (!(eta > 1)) continue;
+    const R mean = fresnel_dielectric_diffuse(eta);
+    reflected[j] = (reflected[j] + mean) / 2;
+    transmitted[j] = (transmitted[j] + 1 - mean) / 2;
+  }
 }
 
 /// What a layer lets through along a direction of |cosine| `c` outside: exp(-depth / cosine
@@ -132,10 +185,12 @@ inline void weigh(const Layout& layout, const R* params, R cos_o, R cos_i,
         w[a] = w[b] = w[i];
         break;
       case Lobe::FresnelMix:
-        detail::weigh_fresnel_mix(p, cos_o, cos_i, w[i], w[a], w[b]);
+        detail::weigh_fresnel_mix(p, detail::gloss_of(layout, params, b), cos_o, cos_i, w[i], w[a],
+                                  w[b]);
         break;
       case Lobe::Coat:
-        detail::weigh_fresnel_mix(p + 1 + kWavelengths, cos_o, cos_i, w[i], w[b], w[a]);
+        detail::weigh_fresnel_mix(p + 1 + kWavelengths, detail::gloss_of(layout, params, a), cos_o,
+                                  cos_i, w[i], w[b], w[a]);
         detail::dim_by_layer(p, cos_o, cos_i, [&](int j, R through) {
           w[b].other[j] *= through;
           w[b].lambert[j] *= through;
@@ -175,14 +230,16 @@ inline void weigh_for_choice(const Layout& layout, const R* params, R cos_o,
         break;
       case Lobe::FresnelMix: {
         Spectrum<R> reflected, transmitted;
-        detail::fresnel_splits(p, cos_o, reflected, transmitted);
+        detail::choose_fresnel_mix(p, detail::gloss_of(layout, params, b), cos_o, reflected,
+                                   transmitted);
         w[a] = w[i] * transmitted;
         w[b] = w[i] * reflected;
         break;
       }
       case Lobe::Coat: {
         Spectrum<R> reflected, transmitted;
-        detail::fresnel_splits(p + 1 + kWavelengths, cos_o, reflected, transmitted);
+        detail::choose_fresnel_mix(p + 1 + kWavelengths, detail::gloss_of(layout, params, a), cos_o,
+                                   reflected, transmitted);
         w[a] = w[i] * reflected;
         w[b] = w[i] * transmitted;
         detail::dim_by_layer(p, cos_o, R(1), [&](int j, R through) { w[b][j] *= through; });

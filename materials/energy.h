@@ -35,6 +35,10 @@ struct InterfaceTables {
 };
 extern const InterfaceTables kGgxInterface;
 
+/// Mean Fresnel reflectance over the directions that `glossy` scatters to, minus that at the
+/// direction it scatters from: [gloss][index][direction], indices above 1.
+extern const float* const kGlossyCoat;
+
 /// How directions and widths are laid out over [0, 1] along the axes of the tables.
 namespace axes {
 
@@ -46,6 +50,8 @@ inline constexpr int kStretchedAlpha = 14, kAspect = 6, kAzimuth = 6, kStretched
 inline constexpr int kStretchedMean = 65, kMeanAspect = 12;
 inline constexpr int kInterfaceAlpha = 21, kIndex = 23, kInterfaceDirection = 61;
 inline constexpr int kInterfaceMean = 65;
+inline constexpr int kGloss = 33, kCoatIndex = 23, kCoatDirection = 41;
+inline constexpr double kLargestGloss = 5e4;
 
 /// Of a direction of |cosine| `z` and tangential length `s`; fine where z is near 0 or `width` s.
 template <class R>
@@ -90,6 +96,17 @@ inline R interface_direction(R z, R s, R width) {
 template <class R>
 inline R index(R eta) {
   return std::sqrt(std::abs(eta - 1) / (eta + 1));
+}
+
+template <class R>
+inline R gloss(R n) {
+  return std::log1p(n) / R(std::log1p(kLargestGloss));
+}
+
+/// Of a coat, crowded towards grazing.
+template <class R>
+inline R coat_direction(R z) {
+  return std::sqrt(std::asin(std::min(z, R(1))) * (2 / std::numbers::pi_v<R>));
 }
 
 }  // namespace axes
@@ -182,6 +199,19 @@ template <class R>
 inline R transmitted_share(R mean_here, R mean_there, R eta) {
   const R there = eta * eta * mean_there;
   return there / (mean_here + there);
+}
+
+/// Mean over wi of Fresnel's F(|wi.z|), as `glossy` scatters from a direction of |cosine| `z` with
+/// reflectance `f` there; `eta` > 1.
+template <class R>
+inline R glossy_mean_fresnel(R gloss, R eta, R z, R f) {
+  using namespace axes;
+  const auto g = Stencil<R>::at(axes::gloss(gloss), kGloss);
+  const auto n = Stencil<R>::at(index(eta), kCoatIndex);
+  const auto d = Stencil<R>::at(coat_direction(z), kCoatDirection);
+  constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatIndex);
+  const R mean = f + interpolate(kGlossyCoat, g, n0, n, n1, d);
+  return mean > 0 ? std::min(mean, R(1)) : R(0);
 }
 
 /// How directions of further bounces are drawn: much as they are distributed, in closed form.

@@ -97,9 +97,10 @@ struct Beckmann : Alpha<R> {
   using Alpha<R>::ax, Alpha<R>::ay;
 
   R density(Vec3<R> h) const {
-    const R x = h.x / ax, y = h.y / ay, z2 = h.z * h.z, z4 = z2 * z2;
-    if (!(z4 > 0)) return 0;  // the exponential has fallen far below
-    return std::exp(-(x * x + y * y) / z2) / (kPi<R> * ax * ay * z4);
+    const R x = h.x / ax, y = h.y / ay, z2 = h.z * h.z;
+    const R area = kPi<R> * ax * ay * (z2 * z2);
+    if (!(area > 0)) return 0;  // the exponential has fallen far below
+    return std::exp(-(x * x + y * y) / z2) / area;
   }
 
   R shadow(Vec3<R> w) const {

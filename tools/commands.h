@@ -20,6 +20,7 @@ Verb disasm_verb();
 Verb compile_verb();
 Verb accuracy_verb();
 Verb profile_verb();
+Verb furnace_verb();
 Verb explain_verb();
 Verb doc_verb();
 Verb completion_verb();
@@ -28,8 +29,8 @@ Verb test_verb();
 
 /// In the order of `mms --help`.
 inline constexpr Verb (*kVerbs[])() = {
-    check_verb, render_verb, merge_verb,   compare_verb, converge_verb,  info_verb,
-    eval_verb,  bounds_verb, disasm_verb,  compile_verb, accuracy_verb,  profile_verb,
-    fmt_verb,   test_verb,   explain_verb, doc_verb,     completion_verb};
+    check_verb,   render_verb, merge_verb,  compare_verb, converge_verb, furnace_verb,
+    info_verb,    eval_verb,   bounds_verb, disasm_verb,  compile_verb,  accuracy_verb,
+    profile_verb, fmt_verb,    test_verb,   explain_verb, doc_verb,      completion_verb};
 
 }  // namespace mms::tools

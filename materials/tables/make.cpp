@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "materials/fresnel.h"
+#include "materials/glossy.h"
 #include "materials/tables/visible.h"
 
 namespace mms::materials::tables {
@@ -227,6 +228,29 @@ void write_interface(std::FILE* to, const std::string& name, bool rising) {
         }));
 }
 
+/// Over x = cos^2, by the inverse of the latitudal distribution.
+double coat_mean(double gloss, double eta, double z) {
+  const Latitude<double> latitude(gloss);
+  const double y = z * z, s2 = (1 - z) * (1 + z);
+  const auto f = [&](double u) {
+    const double x = latitude.inverse(u, 1 - u, y, s2);
+    return fresnel_dielectric(std::sqrt(std::clamp(x, 0.0, 1.0)), eta);
+  };
+  // x grows as a square where it is small: substitute it away at both ends.
+  const auto g = [&](double v) { return 6 * v * (1 - v) * f(v * v * (3 - 2 * v)); };
+  return integrate_adaptive(g, 0, 0.5, 1e-7, 12) + integrate_adaptive(g, 0.5, 1, 1e-7, 12);
+}
+
+void write_coat(std::FILE* to) {
+  using namespace axes;
+  write(to, "kGlossyCoatTable", Grid({kGloss, kCoatIndex, kCoatDirection}, [](const double* x) {
+          const double gloss = std::expm1(x[0] * std::log1p(kLargestGloss));
+          const double eta = index_at(x[1], true);
+          const double z = std::sin(std::max(x[2] * x[2], 1e-9) * kPi<double> / 2);
+          return coat_mean(gloss, eta, z) - fresnel_dielectric(z, eta);
+        }));
+}
+
 template <template <class> class Distribution>
 void write_facets(std::FILE* to, const std::string& name) {
   using namespace axes;
@@ -274,6 +298,7 @@ int main(int argc, char** argv) {
   }
   tables::write_facets<Ggx>(to, "kGgx");
   tables::write_facets<Beckmann>(to, "kBeckmann");
+  tables::write_coat(to);
   tables::write_interface(to, "kGgxDense", true);
   tables::write_interface(to, "kGgxRare", false);
   if (std::fclose(to) != 0) {

@@ -100,3 +100,39 @@ TEST_CASE("eval --trace prints the values on the way, and where a NaN was made")
   CHECK(contains(fine.out, "0.14285714285714285"));
   CHECK(!contains(fine.out, "first made"));
 }
+
+TEST_CASE("furnace tells what a surface gives back, as text, as JSON and as a plot") {
+  const Folder folder;
+  folder.write("grey.mms",
+               "surface grey bsdf = matte(0.25); end\n"
+               "surface clear bsdf = glass(bk7()); end\n");
+  const Outcome text = folder.mms("furnace --samples=100 grey.mms");
+  INFO(text.err);
+  CHECK(text.exit == 0);
+  for (const char* part : {"surface grey: reciprocal", "surface clear", "degrees", "550 nm"})
+    CHECK_MESSAGE(contains(text.out, part), text.out);
+  const Outcome run = folder.mms("furnace --samples=500 --plot=a.svg --format=json grey.mms");
+  REQUIRE(run.exit == 0);
+  const json report = json::parse(run.out);
+  REQUIRE(report.at("surfaces").size() == 2);
+  for (const json& row : report["surfaces"][0]["rows"]) {
+    for (const json& a : row["albedo"]) CHECK(a.get<double>() == doctest::Approx(0.25));
+    CHECK(row["relative_variance"].get<double>() < 1e-9);
+  }
+  // Smooth glass loses nothing, whatever the wavelength, from either side.
+  CHECK(report["surfaces"][1]["rows"].size() > report["surfaces"][0]["rows"].size());
+  for (const json& row : report["surfaces"][1]["rows"])
+    for (const json& a : row["albedo"]) CHECK(a.get<double>() == doctest::Approx(1));
+  CHECK(contains(folder.read("a.svg"), "<polyline"));
+}
+
+TEST_CASE("furnace refuses what has no surface, and no number of samples") {
+  const Folder folder;
+  folder.write("none.mms", "const x = 1;\n");
+  const Outcome none = folder.mms("furnace none.mms");
+  CHECK(none.exit == 1);
+  CHECK(contains(none.err, "no surface"));
+  const Outcome wrong = folder.mms("furnace --samples=few none.mms");
+  CHECK(wrong.exit == 2);
+  CHECK(contains(wrong.err, "--samples"));
+}

@@ -45,11 +45,11 @@ TEST_CASE("help and version") {
   const Outcome help = folder.mms("--help");
   CHECK(help.exit == 0);
   for (const char* part :
-       {"check", "render", "info", "eval", "bounds", "disasm", "accuracy", "profile", "fmt", "test",
-        "explain", "doc", "completion", "Exit codes", "Examples", "70", "130"})
+       {"check", "render", "info", "eval", "bounds", "disasm", "accuracy", "profile", "furnace",
+        "fmt", "test", "explain", "doc", "completion", "Exit codes", "Examples", "70", "130"})
     CHECK(contains(help.out, part));
   for (const char* verb : {"check", "render", "info", "eval", "bounds", "disasm", "accuracy",
-                           "profile", "fmt", "test", "explain", "doc"}) {
+                           "profile", "furnace", "fmt", "test", "explain", "doc"}) {
     const Outcome run = folder.mms(std::string(verb) + " --help");
     INFO(verb);
     CHECK(run.exit == 0);

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// Random calls of every model in float, with numbers over their whole range on log scales and
+// directions where arithmetic is hard. `./run nightly` makes many more (MMS_EXTREME_CALLS).
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "tests/sanitized.h"
+#include "tests/stats/random.h"
+#include "tests/unit/materials/cases.h"
+
+using namespace mms;
+using namespace mms::test;
+using materials::Bsdf;
+using materials::Mode;
+
+namespace {
+
+/// Around 1, over all scales, and what a script may make by mistake.
+double any_number(stats::Random& random) {
+  const double sign = random.next() < 0.5 ? 1 : -1, u = random.next();
+  switch (int(random.next() * 8)) {
+    case 0:
+      return 0;
+    case 1:
+      return 1 + sign * std::pow(10, -8 * u);
+    case 2:
+      return std::pow(10, 25 * u * sign);
+    case 3:
+      return u < 0.25 ? std::nan("") : u < 0.5 ? double(INFINITY) : -u;
+    case 4:
+      return std::pow(10, -4 * u);
+    case 5:
+      return 1 + 3 * u;
+    case 6:
+      return 1 / (1 + 3 * u);
+    default:
+      return u;
+  }
+}
+
+/// Evenly, or near the surface, the normal or `other` and its images.
+Vec3<float> any_direction(stats::Random& random, Vec3<float> other) {
+  const double sign = random.next() < 0.5 ? 1 : -1, u = random.next(), v = random.next();
+  const double tiny = std::pow(10, -20 * u);
+  switch (int(random.next() * 5)) {
+    case 0: {
+      const double phi = 2 * kPi<double> * v;
+      return normalize(Vec3<float>(Vec3d{std::cos(phi), std::sin(phi), sign * tiny}));
+    }
+    case 1:
+      return normalize(Vec3<float>(Vec3d{tiny, 0.1 * tiny, sign}));
+    case 2:
+      return other * float(sign);
+    case 3: {
+      const float s = float(sign);
+      return normalize(Vec3<float>{-other.x + float(tiny), -other.y, s * other.z});
+    }
+    default:
+      return normalize(Vec3<float>(square_to_sphere(u, v)));
+  }
+}
+
+/// The model alone; of combiners, over two lobes.
+Material any_material(Lobe lobe, stats::Random& random) {
+  const auto& f = materials::formals(lobe);
+  Material m;
+  vm::LayoutNode n;
+  n.lobe = int(lobe);
+  for (int i = 0; i < f.count; ++i) {
+    if (f.kinds[i] == 'm') {
+      const bool polished = random.next() < 0.3;
+      append(m, i > 0      ? matte(1)
+                : polished ? mirror(1)
+                           : glossy(1, std::pow(10, 6 * random.next() - 1)));
+      n.children.push_back(std::uint32_t(m.tree.nodes.size() - 1));
+      continue;
+    }
+    n.params.emplace_back();
+    // Factors up to 1: more is the author's; half of the spectra are constant.
+    const bool factor = f.tint[i] || lobe == Lobe::Scale, varies = random.next() < 0.5;
+    const auto draw = [&] { return factor ? random.next() : any_number(random); };
+    const double x = draw();
+    for (int j = 0; j < (f.kinds[i] == 's' ? kWavelengths : 1); ++j)
+      m.numbers.push_back(varies && j > 0 ? draw() : x);
+  }
+  m.tree.nodes.push_back(n);
+  return m;
+}
+
+struct Counts {
+  long long calls = 0, nan = 0, infinite = 0, negative = 0, empty = 0;
+  void add(const Spectrumf& s) {
+    for (float x : s.v) {
+      nan += std::isnan(x);
+      infinite += std::isinf(x);
+      negative += x < 0;
+    }
+  }
+  bool good() const { return nan + infinite + negative == 0; }
+};
+
+}  // namespace
+
+TEST_CASE("random calls of every model are finite and non-negative") {
+  const char* wanted = std::getenv("MMS_EXTREME_CALLS");
+  const long long calls = wanted ? std::atoll(wanted) : kSanitized ? 1'000 : 30'000;
+  for (int k = 0; k < materials::kLobeCount; ++k) {
+    const Lobe lobe = Lobe(k);
+    if (materials::traits(lobe) & materials::PhaseFunction) continue;
+    stats::Random random(std::uint64_t(k + 1));
+    Counts counts;
+    std::string first;
+    while (counts.calls < calls) {
+      const Material m = any_material(lobe, random);
+      const materials::Layout layout = m.layout();
+      const auto p = m.params<float>();
+      const Bsdf<float> bsdf(layout, p.data());
+      for (int i = 0; i < 50; ++i) {
+        const Vec3<float> wo = any_direction(random, {0, 0, 1}), wi = any_direction(random, wo);
+        const Mode mode = i % 2 ? Mode::Radiance : Mode::Importance;
+        const auto l = bsdf.evaluate(wo, wi, mode);
+        counts.add(l.f);
+        counts.add(l.pdf);
+        const float u = random.next_float(), u1 = random.next_float(), u2 = random.next_float();
+        const auto s = bsdf.sample(wo, u, u1, u2, mode);
+        counts.calls += 2;
+        if (!s) {
+          ++counts.empty;
+        } else {
+          counts.add(s->f);
+          counts.add(s->pdf);
+          counts.nan += !(std::abs(length(s->wi) - 1) < 1e-4f);
+        }
+        if (!counts.good() && first.empty()) {
+          for (float x : p) first += std::to_string(x) + " ";
+          first += "; wo " + std::to_string(wo.x) + " " + std::to_string(wo.y) + " " +
+                   std::to_string(wo.z * 1e6f) + "e-6; wi z " + std::to_string(wi.z * 1e6f) +
+                   "e-6, f " + std::to_string(l.f[0]) + " pdf " + std::to_string(l.pdf[0]);
+        }
+      }
+    }
+    CHECK_MESSAGE(counts.good(), materials::rows()[k].signature, ": ", counts.nan, " NaN, ",
+                  counts.infinite, " infinite, ", counts.negative, " negative; first: ", first);
+    if (wanted)
+      MESSAGE(materials::rows()[k].signature, ": ", counts.calls, " calls, ", counts.empty,
+              " without sample; ", counts.nan, " NaN, ", counts.infinite, " infinite, ",
+              counts.negative, " negative");
+  }
+}
