@@ -18,6 +18,17 @@ surface worley_pair
     emission = screen(f[1] - f[0]);
 end
 surface voronoi bsdf = dark; emission = screen(voronoi(p)); end
+surface simplex bsdf = dark; emission = screen_signed(simplex(2 * p, 0)); end
+surface valuenoise bsdf = dark; emission = screen_signed(valuenoise(2 * p, 0)); end
+surface white bsdf = dark; emission = screen_signed(white([floor(4 * p[0]), floor(4 * p[1])])); end
+surface blocks bsdf = dark; emission = screen_signed(blocks(2 * p)); end
+surface worley_f1 bsdf = dark; emission = screen(worley_f1(p)); end
+surface worley_f2 bsdf = dark; emission = screen(0.7 * worley_f2(p)); end
+surface worley_f3 bsdf = dark; emission = screen(0.6 * worley_f3(p)); end
+surface worley_gap bsdf = dark; emission = screen(worley_gap(p)); end
+surface worley_edge bsdf = dark; emission = screen(2 * worley_edge(p)); end
+surface worley_id bsdf = dark; emission = screen(worley_id(p)); end
+surface worley_signed bsdf = dark; emission = screen_signed(worley_signed(p)); end
 surface octave_sum
     bsdf     = dark;
     emission = screen(octave_sum(function(v) -> perlin(v)^2, p, 4));
