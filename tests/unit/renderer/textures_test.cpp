@@ -13,6 +13,7 @@
 #include "materials/colour.h"
 #include "renderer/render.h"
 #include "renderer/textures.h"
+#include "tests/sanitized.h"
 #include "tests/unit/renderer/tiff.h"
 
 using namespace mms;
@@ -340,6 +341,8 @@ TEST_CASE("textures: what is no picture or is cut off is an error") {
   REQUIRE(write_image(folder / "a.exr", film, {}));
   for (const char* name : {"a.tif", "a.png", "a.exr"}) {
     CAPTURE(name);
+    // libpng leaves OpenImageIO by a long jump, past the destructor of a string.
+    if (kSanitized && std::string_view(name) == "a.png") continue;
     const std::string file = folder / name;
     CHECK(open_textures(64)->open(use_of(file)));
     fs::resize_file(file, fs::file_size(file) / 2);
