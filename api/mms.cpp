@@ -156,6 +156,21 @@ int mmsAddGraph(MMsProgram* program, const MMsGraph* graph) {
   });
 }
 
+int mmsSetImages(MMsProgram* program, double megabytes, int missing_is_magenta) {
+  if (!program) return 0;
+  return api::guarded(program->messages, [&] {
+    if (!(megabytes >= 1)) {
+      program->messages.add(
+          {"mmsSetImages", fmt::format("{} megabytes are too few", megabytes), "give 1 or more"});
+      return false;
+    }
+    program->images = api::ImageLibrary(megabytes);
+    program->options.missing_images =
+        missing_is_magenta ? lang::MissingImages::Magenta : lang::MissingImages::Refuse;
+    return true;
+  });
+}
+
 int mmsAddImportPath(MMsProgram* program, const char* folder) {
   if (!program || !folder) return 0;
   return api::guarded(program->messages, [&] {

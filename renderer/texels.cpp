@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* kFile = "mms:file";
 constexpr const char* kSpace = "mms:space";
+constexpr const char* kPacked = "mms:packed";
 constexpr const char* kSrgb = "sRGB";
 constexpr const char* kLinear = "linear";
 
@@ -122,6 +123,40 @@ class LinearInput final : public OIIO::ImageInput {
   OIIO::ColorProcessorHandle processor_;
 };
 
+/// A packed picture, unpacked tile by tile.
+class PackedInput final : public OIIO::ImageInput {
+ public:
+  const char* format_name() const override { return "mms packed"; }
+  int supports(OIIO::string_view) const override { return 0; }
+
+  bool open(const std::string&, OIIO::ImageSpec&) override { return false; }
+  bool open(const std::string&, OIIO::ImageSpec& spec, const OIIO::ImageSpec& config) override {
+    constexpr int kTile = 64;
+    const OIIO::ParamValue* p = config.find_attribute(kPacked);
+    if (!p) return false;
+    packed_ = *static_cast<const Packed* const*>(p->data());
+    m_spec = OIIO::ImageSpec(packed_->width(), packed_->height(), packed_->channels(),
+                             OIIO::TypeDesc::FLOAT);
+    m_spec.tile_width = m_spec.tile_height = kTile;
+    m_spec.tile_depth = 1;
+    spec = m_spec;
+    return true;
+  }
+  bool close() override { return true; }
+  bool seek_subimage(int subimage, int miplevel) override {
+    return packed_ && subimage == 0 && miplevel == 0;
+  }
+  bool read_native_scanline(int, int, int, int, void*) override { return false; }
+  bool read_native_tile(int subimage, int miplevel, int x, int y, int, void* data) override {
+    if (!seek_subimage(subimage, miplevel)) return false;
+    packed_->unpack(x, y, m_spec.tile_width, m_spec.tile_height, static_cast<float*>(data));
+    return true;
+  }
+
+ private:
+  const Packed* packed_ = nullptr;
+};
+
 /// The space of a file that is to say so itself: what it states, else sRGB for numbers of 8 bits.
 std::string own_space(const OIIO::ImageSpec& spec) {
   const std::string stated = spec.get_string_attribute("oiio:ColorSpace");
@@ -159,7 +194,7 @@ Result<TexelFile> inspect_texels(const std::string& path, const std::string& spa
   const auto file = open_file(path);
   if (!file) return Error{path, "cannot be read: " + one_line(OIIO::geterror()), kBroken};
   const OIIO::ImageSpec spec = file->spec();
-  TexelFile t{path, space, spec.width, spec.height, spec.nchannels, spec.channelnames, false};
+  TexelFile t{path, space, spec.width, spec.height, spec.nchannels, spec.channelnames, false, 0};
   if (space == "auto") t.space = own_space(spec);
   if (t.space != kSrgb && t.space != kLinear && !processor_of(t.space))
     return Error{path, "cannot be made linear: there is no colour space `" + t.space + "`",
@@ -167,6 +202,7 @@ Result<TexelFile> inspect_texels(const std::string& path, const std::string& spa
   const auto format = static_cast<OIIO::TypeDesc::BASETYPE>(spec.format.basetype);
   t.bounded = (format == OIIO::TypeDesc::UINT8 || format == OIIO::TypeDesc::UINT16) &&
               (t.space == kSrgb || t.space == kLinear);
+  t.number_bytes = t.space == kLinear ? int(spec.format.basesize()) : int(sizeof(float));
   if (spec.deep || spec.depth > 1 || spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
     return Error{path, "cannot be read: it is no flat picture", "flatten it"};
   if (!reads_to_the_end(*file))
@@ -210,6 +246,27 @@ void texel_range(const TexelFile& t, double& low, double& high) {
     high = std::numeric_limits<double>::infinity();
     low = -high;
   }
+}
+
+Result<std::shared_ptr<const Packed>> pack_texels(const TexelFile& t) {
+  const auto file = open_file(t.path);
+  std::vector<float> pixels(std::size_t(t.width) * std::size_t(t.height) * std::size_t(t.channels));
+  if (!file || !file->read_image(0, 0, 0, t.channels, OIIO::TypeDesc::FLOAT, pixels.data()))
+    return Error{t.path, "cannot be read: " + one_line(file ? file->geterror() : OIIO::geterror()),
+                 ""};
+  make_linear(t.space, processor_of(t.space), pixels.data(),
+              std::size_t(t.width) * std::size_t(t.height), t.channels);
+  return std::make_shared<const Packed>(t.width, t.height, t.channels, pixels.data());
+}
+
+std::string add_packed(void* cache, const TexelFile& t, const Packed& packed) {
+  const std::string name = t.path + "|" + t.space + "|packed";
+  OIIO::ImageSpec config;
+  const Packed* const pointer = &packed;
+  config.attribute(kPacked, OIIO::TypeDesc(OIIO::TypeDesc::PTR), &pointer);
+  static_cast<OIIO::ImageCache*>(cache)->add_file(
+      OIIO::ustring(name), []() -> OIIO::ImageInput* { return new PackedInput; }, &config);
+  return name;
 }
 
 std::string add_texels(void* cache, const TexelFile& t) {

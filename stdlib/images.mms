@@ -2,7 +2,8 @@
 // Images from files. `at` is [u, v]: [0, 0] is the lower left corner of the picture, [1, 1] the upper
 // right one. Names, and the words for filter, wrap, space, channel and storage, are known at link.
 // What the pixel covers is filtered away, exactly as `$footprint` says, `width` times as wide
-// (0: not at all) and wider by `blur`, a part of the picture.
+// (0: not at all) and wider by `blur`, a part of the picture. `storage` is how it is kept in memory: `raw`,
+// or `compressed`, which is smaller, slower and not exact.
 
 /// How `at` changes across the pixel along its x axis (column 0) or its y axis.
 /// >>> image_step([0.5, 0.5], 0, 0)

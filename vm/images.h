@@ -46,7 +46,8 @@ inline constexpr ImageWord kImageWraps[] = {
     {"black", "0"},
 };
 inline constexpr ImageWord kImageStorages[] = {
-    {"raw", "as the file has it; what fits the budget is in memory"},
+    {"raw", "numbers as they are; pieces are read from the file, and kept within the budget"},
+    {"compressed", "all of it in memory, in blocks of 4 x 4: smaller, slower, and not exact"},
 };
 
 /// What a row wants of a picture.
@@ -67,7 +68,8 @@ class Image {
   /// Where an argument is not finite the results are 0.
   virtual void look_up(ImageAsk ask, const float* const* in, float* const* out,
                        int lanes) const = 0;
-  /// `width`, `height`, `channels`, or a number that the file itself states by that name.
+  /// `width`, `height`, `channels`, `bytes` in memory, or a number that the file itself states by
+  /// that name.
   virtual std::optional<double> number(std::string_view name) const = 0;
   /// Nothing but slopes is ever outside.
   virtual void range(double& low, double& high) const = 0;

@@ -13,6 +13,7 @@
 #include "materials/colour.h"
 #include "renderer/render.h"
 #include "renderer/textures.h"
+#include "tests/sanitized.h"
 #include "tests/unit/renderer/tiff.h"
 
 using namespace mms;
@@ -253,6 +254,49 @@ TEST_CASE("textures: the pixel is filtered away along its own axes") {
   CHECK(value(*r, blurred) == doctest::Approx(0.5).epsilon(0.02));
 }
 
+TEST_CASE("textures: packed blocks keep within a step of their line, and a quarter of the memory") {
+  const Folder folder;
+  // Smooth, with channels that rise and fall against each other: lines fit well.
+  Texels t{37, 22, 3, {}};
+  for (int y = 0; y < t.height; ++y)
+    for (int x = 0; x < t.width; ++x) {
+      const float f = 0.5f + 0.4f * std::sin(0.3f * float(x) + 0.2f * float(y));
+      t.values.insert(t.values.end(), {f, 1 - f, 8 * f});
+    }
+  ImageUse use = use_of(folder.write("a.tif", t));
+  use.filter = "nearest";
+  const auto raw = open(use);
+  use.storage = "compressed";
+  const auto packed = open(use);
+  CHECK(raw->number("bytes") == 37 * 22 * 3 * 4.0);
+  CHECK(*packed->number("bytes") == 10 * 6 * 20.0);  // blocks of 6 halves and 16 half-bytes
+  double low, high;
+  packed->range(low, high);
+  for (int y = 0; y < t.height; ++y)
+    for (int x = 0; x < t.width; ++x) {
+      // A block's change is at most 3 (0.3 + 0.2) 0.4 of the first channel, 8 times that of the
+      // last; a thirtieth of it is half a step, and ends are off by 2^-11 of themselves.
+      const Place p{(float(x) + 0.5f) / 37, 1 - (float(y) + 0.5f) / 22};
+      const auto colour = look_up(*packed, ImageAsk::Colour, p);
+      for (int c = 0; c < 3; ++c) {
+        const double scale = c == 2 ? 8 : 1;
+        CHECK(std::abs(colour[std::size_t(c)] - t.at(x, y, c)) <=
+              scale * (0.6 / 30 + 2 * 0x1p-11) + 1e-6);
+        CHECK(colour[std::size_t(c)] >= low);
+        CHECK(colour[std::size_t(c)] <= high);
+      }
+    }
+  // Two values to a block come back as they are, negative and bright ones too.
+  Texels two{8, 8, 4, {}};
+  for (int k = 0; k < 64; ++k) two.values.insert(two.values.end(), {-2, k % 3 ? 0.5f : 1024, 1, 0});
+  use.file = folder.write("two.tif", two);
+  const auto exact = open(use);
+  for (int k = 0; k < 64; ++k) {
+    const Place p{(float(k % 8) + 0.5f) / 8, 1 - (float(k / 8) + 0.5f) / 8};
+    CHECK(look_up(*exact, ImageAsk::Colour, p) == std::vector<double>{-2, k % 3 ? 0.5 : 1024, 1});
+  }
+}
+
 TEST_CASE("textures: tiles have their places, and there is nothing outside") {
   const Folder folder;
   for (const auto& [number, value] : {std::pair{"1001", 0.25f}, {"1002", 0.5f}, {"1012", 0.75f}})
@@ -297,6 +341,8 @@ TEST_CASE("textures: what is no picture or is cut off is an error") {
   REQUIRE(write_image(folder / "a.exr", film, {}));
   for (const char* name : {"a.tif", "a.png", "a.exr"}) {
     CAPTURE(name);
+    // libpng leaves OpenImageIO by a long jump, past the destructor of a string.
+    if (kSanitized && std::string_view(name) == "a.png") continue;
     const std::string file = folder / name;
     CHECK(open_textures(64)->open(use_of(file)));
     fs::resize_file(file, fs::file_size(file) / 2);
