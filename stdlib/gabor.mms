@@ -29,7 +29,7 @@ real box_response(real waves)
 real gabor_sum(function(real) -> real[n] wave, real[n] p, integer seed, real[n] period)
     corner = map(#floor, p);
     real packet(integer c)
-        cell = array(n, function(k) -> floor(c / 3.0 ^ k) % 3.0 - 0.5);
+        cell = array(n, function(k) -> floor(c / 3.0^k) % 3.0 - 0.5);
         id   = cellnoise(corner + cell, seed, period);
         d    = array(n, function(k) -> p[k] - corner[k] - cell[k] + 0.5 - hash(id, k));
         fade = max(1.0 - dot(d, d), 0.0);
@@ -37,7 +37,7 @@ real gabor_sum(function(real) -> real[n] wave, real[n] p, integer seed, real[n] 
     real upto(integer c, real total) =
         select total, if c < 0; upto(c - 1, total + packet(c)) otherwise; end;
     scale = [0.51375, 0.6333, 0.79378, 1.01061];  // 0.3 sqrt(2 / integral of the packet's square)
-    return scale[n - 1] * upto(integer(3.0 ^ n + 0.5) - 1, 0.0);
+    return scale[n - 1] * upto(integer(3.0^n + 0.5) - 1, 0.0);
 
 /// Gabor noise of waves along `frequency`, in cycles a unit; in [-1, 1], its root mean square 0.3 and its
 /// bandwidth 0.4. `width`, which is `filter_width(p)`, filters it: each packet is replaced by its mean
@@ -72,7 +72,7 @@ real gabor_isotropic(
 )
     size   = widest(width);
     slower = 1.0 / (1.0 + 0.5 * size * size);
-    weaker = box_response(size * frequency * sqrt(slower)) * slower ^ (0.5 * n);
+    weaker = box_response(size * frequency * sqrt(slower)) * slower^(0.5 * n);
     // Three uniform numbers add up to nearly a normal one, and normal ones point anywhere.
     real[n] wave(real id)
         v = array(n, function(k) ->

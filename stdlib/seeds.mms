@@ -136,7 +136,8 @@ real white(real[n] p, integer seed = 0) = 2.0 * hash(p, seed) - 1.0;
 /// A number in [-1, 1) for each unit cell and seed.
 /// >>> blocks([0.3, 0.7]) == 2 * cellnoise([0.9, 0.1]) - 1
 /// true
-real blocks(real[n] p, integer seed = 0) = 2.0 * cellnoise(p, seed, array(n, function(k) -> 0.0)) - 1.0;
+real blocks(real[n] p, integer seed = 0) =
+    2.0 * cellnoise(p, seed, array(n, function(k) -> 0.0)) - 1.0;
 
 /// `size` numbers from a noise: of as many seeds from `seed` on.
 /// >>> noise_vector(function(real[2] q, integer s) -> q.x + s, 3, [0.5, 0.0], 1)

@@ -3,8 +3,7 @@
 // unit cell, and to the border of the nearest one's cell, in 1 to 4 dimensions. Every seed has other
 // points; `exponent` is that of Minkowski's distances, one of `manhattan`, `euclidean`, `chebyshev` or
 // any other from 1 on; `jitter` 0 puts points in the middle of their cells, 1 anywhere in them; after
-// `period`, which is rounded to whole cells, all repeats (0 is none). What several functions take of
-// one place is computed once.
+// `period`, which is rounded to whole cells, all repeats (0 is none).
 
 /// The exponent of distances along the axes: |x| + |y| + ...
 /// >>> minkowski([3, 4], manhattan)
@@ -31,7 +30,7 @@ real minkowski(real[n] v, real exponent)
         sqrt(fold(#+, 0.0, v * v)), if exponent == 2.0;
         fold(#+, 0.0, size), if exponent <= 1.0;
         fold(#max, 0.0, size), if exponent > 64.0;
-        fold(#+, 0.0, map(function(x) -> x ^ exponent, size)) ^ (1.0 / exponent) otherwise;
+        fold(#+, 0.0, map(function(x) -> x^exponent, size))^(1.0 / exponent) otherwise;
     end;
 
 /// Distances to the nearest three points: F1, F2 and F3.

@@ -83,7 +83,7 @@ TEST_CASE("noise stays in [-1, 1], uses most of it, and has mean 0") {
         square += double(x) * x / double(v.size());
       }
       CHECK(most <= 1);
-      CHECK(most > 0.6);
+      CHECK(most > 0.5);
       // Five standard errors; for n = 1 points share 6000 cells, of which neighbours are related.
       const double independent = kind.n == 1 ? std::min<double>(kCount, 2000) : kCount / 2.0;
       CHECK(std::fabs(mean) < 5 * std::sqrt(square / independent));
