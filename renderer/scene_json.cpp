@@ -111,7 +111,8 @@ class Parser {
 
   void object(const Node& n) {
     std::vector<std::string> keys = shape_keys();
-    for (const char* key : {"name", "translate", "rotate", "scale", "surface", "volume", "test"})
+    for (const char* key :
+         {"name", "translate", "rotate", "scale", "surface", "volume", "displace", "test"})
       keys.emplace_back(key);
     n.keys(keys);
     Object o;
@@ -121,6 +122,11 @@ class Parser {
     o.transform.scale = n.number_or("scale", 1, 1e-9, 1e9);
     o.test = n.has("test") && (n["test"].is_number() || n["test"].logic());
     o.shape = parse_shape(n, o.transform, folder_);
+    o.displace = n.number_or("displace", 0, 1e-9, 1e9);
+    if (o.displace > 0 && !std::holds_alternative<Sphere>(o.shape) &&
+        !std::holds_alternative<Mesh>(o.shape))
+      n["displace"].fail("only spheres and meshes are displaced",
+                         "write the shape as a mesh, or leave `displace` out: `height` bumps");
     bind(n, o);
     if (o.volume >= 0 && open(o.shape))
       n.fail("a volume needs a closed object", "a sphere, a box, or a closed mesh");
