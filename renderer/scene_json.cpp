@@ -111,17 +111,21 @@ class Parser {
 
   void object(const Node& n) {
     std::vector<std::string> keys = shape_keys();
-    for (const char* key :
-         {"name", "translate", "rotate", "scale", "surface", "volume", "displace", "test"})
+    for (const char* key : {"name", "instance", "translate", "rotate", "scale", "surface", "volume",
+                            "displace", "test"})
       keys.emplace_back(key);
     n.keys(keys);
+    if (n.has("instance"))
+      for (const std::string& key : shape_keys())
+        if (n.has(key.c_str())) n.fail(fmt::format("an object has either `instance` or `{}`", key));
     Object o;
     if (n.has("name")) o.name = n["name"].text();
     if (n.has("translate")) o.transform.move = n["translate"].vec3();
     if (n.has("rotate")) o.transform.axes = euler(n["rotate"].vec3());
     o.transform.scale = n.number_or("scale", 1, 1e-9, 1e9);
     o.test = n.has("test") && (n["test"].is_number() || n["test"].logic());
-    o.shape = parse_shape(n, o.transform, folder_);
+    o.shape = parse_shape(n.has("instance") ? original(n) : n, o.transform, folder_);
+    if (!o.name.empty() && !n.has("instance")) named_.emplace_back(o.name, n);
     o.displace = n.number_or("displace", 0, 1e-9, 1e9);
     if (o.displace > 0 && !std::holds_alternative<Sphere>(o.shape) &&
         !std::holds_alternative<Mesh>(o.shape))
@@ -131,6 +135,17 @@ class Parser {
     if (o.volume >= 0 && open(o.shape))
       n.fail("a volume needs a closed object", "a sphere, a box, or a closed mesh");
     data_.objects.push_back(std::move(o));
+  }
+
+  /// The object whose shape `n` has too.
+  const Node& original(const Node& n) const {
+    const std::string name = n["instance"].text();
+    std::vector<std::string> known;
+    for (const auto& [other, node] : named_) {
+      if (other == name) return node;
+      known.push_back(other);
+    }
+    n["instance"].fail(fmt::format("no object `{}` before this one", name), hint_for(name, known));
   }
 
   /// Finds the descriptors of an object: what the caller asked for, what the scene says, or the
@@ -237,6 +252,7 @@ class Parser {
   const vm::Program& program_;
   const SceneSource& source_;
   std::string folder_;
+  std::vector<std::pair<std::string, Node>> named_;  ///< objects that state a shape
   SceneData data_;
 };
 
