@@ -25,7 +25,7 @@ namespace {
 
 using renderer::Estimator;
 
-constexpr int kSide = 48, kReference = 4096;
+constexpr int kSide = 48, kReference = 2048;
 constexpr int kClusters[] = {1, 4, 16, 64, 256};
 
 /// The two settings of the table: Phong's exponent and indices at 360 and 830 nm, and its ratios.
@@ -145,7 +145,7 @@ std::string table(const Setting& s) {
       s.exponent, s.violet, s.red);
   std::vector<double> clustered, single;
   for (std::size_t i = 0; i < std::size(kClusters); ++i) {
-    const int n = kClusters[i], seeds = n <= 16 ? 12 : n <= 64 ? 6 : 4;
+    const int n = kClusters[i], seeds = n <= 16 ? 8 : n <= 64 ? 4 : 3;
     Series ratio, toned, timed;
     double a = 0, b = 0;
     for (int seed = 0; seed < seeds; ++seed) {
@@ -183,9 +183,10 @@ int main() {
       "unpublished\n"
       "one. Ratios are single / clustered with two standard errors over seeds; toned: after\n"
       "1 - 2^(-1.7 c). From 16 clusters on the ratio is short of the thesis' because its single\n"
-      "samples fall slower, like C^-0.35: ours have stratified wavelengths, and their error is "
+      "samples fall slower, like C^-0.34: ours have stratified wavelengths, and their error is "
       "there a\n"
-      "quarter of the thesis', while that of the clusters is the thesis' or less. Reproduce: "
+      "fifth to a third of the thesis', while that of the clusters is the thesis' or less. "
+      "Reproduce: "
       "`./run bench` (`bench_spectral`).\n",
       kSide, kReference);
   for (const Setting& s : kSettings) text += table(s);

@@ -205,7 +205,7 @@ void Integrator::shade(std::span<const Vertex> group) {
       add_emission(v, scripted_emission(world_.compiled, scripts_, *d, EntryKind::Shade, i, s,
                                         v.point.view, scratch_));
     std::array<double, 2> gradient{0, 0};
-    if (c.bumps)
+    if (c.bumps && !v.point.object->displaced)
       gradient = {scripts_.real(d->shade.gradient[0], i), scripts_.real(d->shade.gradient[1], i)};
     scatter(v, {c.material, params, false, shading_frame(s, gradient, v.point.view)});
   }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/displace.h"
 #include "renderer/job.h"
 #include "renderer/layers.h"
 #include "renderer/prepare.h"
@@ -39,8 +40,14 @@ std::optional<Error> check(const RenderOptions& o) {
 Result<Rendered> render(const vm::Program& program, const Scene& scene,
                         const RenderOptions& options) {
   if (const std::optional<Error> e = check(options)) return *e;
-  const SceneData& data = scene.data();
   const Compiled compiled(program);
+  SceneData moved;
+  if (any_displaced(scene.data())) {
+    Result<SceneData> made = displaced(scene.data(), compiled);
+    if (!made) return made.error();
+    moved = std::move(*made);
+  }
+  const SceneData& data = any_displaced(scene.data()) ? moved : scene.data();
   Result<Findings> findings = probe(data, compiled);
   if (!findings) return findings.error();
 

@@ -45,10 +45,12 @@ struct Volume {
 struct Object {
   std::string name;
   Shape shape;
-  Transform transform;  ///< object space to world; the shape is in world space already
-  int surface = 0;      ///< index into SceneData::surfaces
-  int volume = -1;      ///< index into SceneData::volumes, or none
-  bool test = false;    ///< an object under test
+  Transform transform;     ///< object space to world; the shape is in world space already
+  int surface = 0;         ///< index into SceneData::surfaces
+  int volume = -1;         ///< index into SceneData::volumes, or none
+  bool test = false;       ///< an object under test
+  double displace = 0;     ///< edge of the triangles that `height` moves, m; 0: it bumps only
+  bool displaced = false;  ///< `shape` has been moved by `height` already
 };
 
 struct Camera {

@@ -112,9 +112,13 @@ class Parser {
 
   void object(const Node& n) {
     std::vector<std::string> keys = shape_keys();
-    for (const char* key : {"name", "translate", "rotate", "scale", "surface", "volume", "test"})
+    for (const char* key : {"name", "instance", "translate", "rotate", "scale", "surface", "volume",
+                            "displace", "test"})
       keys.emplace_back(key);
     n.keys(keys);
+    if (n.has("instance"))
+      for (const std::string& key : shape_keys())
+        if (n.has(key.c_str())) n.fail(fmt::format("an object has either `instance` or `{}`", key));
     Object o;
     if (n.has("name")) o.name = n["name"].text();
     if (n.has("translate")) o.transform.move = n["translate"].vec3();
@@ -122,7 +126,13 @@ class Parser {
     o.transform.scale = n.number_or("scale", 1, 1e-9, 1e9);
     o.test = n.has("test") && (n["test"].is_number() || n["test"].logic());
     if (o.test) turn(o.transform);
-    o.shape = parse_shape(n, o.transform, folder_);
+    o.shape = parse_shape(n.has("instance") ? original(n) : n, o.transform, folder_);
+    if (!o.name.empty() && !n.has("instance")) named_.emplace_back(o.name, n);
+    o.displace = n.number_or("displace", 0, 1e-9, 1e9);
+    if (o.displace > 0 && !std::holds_alternative<Sphere>(o.shape) &&
+        !std::holds_alternative<Mesh>(o.shape))
+      n["displace"].fail("only spheres and meshes are displaced",
+                         "write the shape as a mesh, or leave `displace` out: `height` bumps");
     bind(n, o);
     if (o.volume >= 0 && open(o.shape))
       n.fail("a volume needs a closed object", "a sphere, a box, or a closed mesh");
@@ -134,6 +144,17 @@ class Parser {
     const double c = std::cos(source_.turn), s = std::sin(source_.turn);
     for (Vec3d* axis : {&t.axes.s, &t.axes.t, &t.axes.n})
       *axis = {c * axis->x + s * axis->z, axis->y, c * axis->z - s * axis->x};
+  }
+
+  /// The object whose shape `n` has too.
+  const Node& original(const Node& n) const {
+    const std::string name = n["instance"].text();
+    std::vector<std::string> known;
+    for (const auto& [other, node] : named_) {
+      if (other == name) return node;
+      known.push_back(other);
+    }
+    n["instance"].fail(fmt::format("no object `{}` before this one", name), hint_for(name, known));
   }
 
   /// Finds the descriptors of an object: what the caller asked for, what the scene says, or the
@@ -240,6 +261,7 @@ class Parser {
   const vm::Program& program_;
   const SceneSource& source_;
   std::string folder_;
+  std::vector<std::pair<std::string, Node>> named_;  ///< objects that state a shape
   SceneData data_;
 };
 

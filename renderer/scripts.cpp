@@ -48,7 +48,17 @@ CompiledDescriptor compile(const vm::Program& p, const vm::Descriptor& d) {
 }  // namespace
 
 const vm::Entry& entry_of(const vm::Descriptor& d, EntryKind kind) {
-  return kind == EntryKind::Shade ? d.shade : kind == EntryKind::Pass ? d.pass : d.emit;
+  switch (kind) {
+    case EntryKind::Shade:
+      return d.shade;
+    case EntryKind::Pass:
+      return d.pass;
+    case EntryKind::Emit:
+      return d.emit;
+    case EntryKind::Displace:
+      break;
+  }
+  return d.displace;
 }
 
 Compiled::Compiled(const vm::Program& program) : program_(&program) {

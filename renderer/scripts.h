@@ -70,7 +70,7 @@ struct ScriptCounters {
   std::uint64_t runs = 0, points = 0, pass_runs = 0, emission_runs = 0, medium_runs = 0;
 };
 
-enum class EntryKind : std::uint8_t { Shade, Pass, Emit };
+enum class EntryKind : std::uint8_t { Shade, Pass, Emit, Displace };
 const vm::Entry& entry_of(const vm::Descriptor& d, EntryKind kind);
 
 class Scripts {

@@ -69,7 +69,8 @@ TEST_CASE("a volume that varies within the cells: half of the collisions are wit
 TEST_CASE("a thin cloud with a dense core is crossed in few steps, whatever bound is stated") {
   // Density exp(-40 r^2) of a turned and moved ball: its optical depth along the diameter is
   // 8 sqrt(pi / 40) erf(sqrt 40), and erf is 1 to 17 digits.
-  const std::string density = "absorption = 8 * exp(-40 * dot($object_position, $object_position));";
+  const std::string density =
+      "absorption = 8 * exp(-40 * dot($object_position, $object_position));";
   const std::string scene = R"({"camera": {"position": [3, 1, 7], "target": [3, 1, 0], "fov": 0.01},
     "environment": {"constant": 1}, "objects": [{"sphere": {}, "translate": [3, 1, 0],
     "rotate": [20, 30, 40], "test": true}]})";

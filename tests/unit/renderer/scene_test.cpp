@@ -270,3 +270,28 @@ TEST_CASE("a sheet's objects wear the script's surfaces in turn, from the chosen
   CHECK(worn("") == "abcabcabcabc");
   CHECK(worn("b") == "bcabcabcabca");
 }
+
+TEST_CASE("an instance has the shape of a named object, and a place and surface of its own") {
+  HandProgram h;
+  h.matte("wood", 0.5);
+  h.matte("clay", 0.2);
+  const Result<SceneData> r = parse_scene(h.program, {}, R"({"objects": [
+      {"name": "pin", "surface": "wood", "scale": 2, "translate": [5, 0, 0],
+       "mesh": {"positions": [[0, 0, 0], [0, 0, 1], [0, 1, 0]], "triangles": [[0, 1, 2]]}},
+      {"instance": "pin", "surface": "clay", "scale": 3, "rotate": [0, 90, 0]}]})",
+                                          "s", "");
+  REQUIRE_MESSAGE(bool(r), (r ? "" : r.error().where + r.error().what));
+  const Mesh& m = std::get<Mesh>(r->objects[1].shape);
+  CHECK(m.positions[1].x == doctest::Approx(3));
+  CHECK(m.positions[2].y == doctest::Approx(3));
+  CHECK(r->surfaces[std::size_t(r->objects[1].surface)].name == "clay");
+
+  const Error none = error_of(R"({"objects": [{"name": "pin", "sphere": {}, "surface": "wood"},
+                                              {"instance": "pni", "surface": "wood"}]})");
+  CHECK(none.where == "s.json: objects[1].instance");
+  CHECK(holds(none.hint, "did you mean `pin`?"));
+  CHECK(holds(error_of(R"({"objects": [{"name": "pin", "sphere": {}, "surface": "wood"},
+                           {"instance": "pin", "disc": {}, "surface": "wood"}]})")
+                  .what,
+              "either `instance` or `disc`"));
+}
