@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "materials/colour.h"
-#include "renderer/render.h"
+#include "renderer/picture.h"
 #include "renderer/textures.h"
 #include "tests/sanitized.h"
 #include "tests/unit/renderer/tiff.h"
@@ -338,7 +338,7 @@ TEST_CASE("textures: what is no picture or is cut off is an error") {
   Film film{64, 64, {}, {}};
   film.xyz.resize(64 * 64, {0.5, 0.25, 1});
   film.variance.resize(64 * 64, 0);
-  REQUIRE(write_image(folder / "a.exr", film, {}));
+  REQUIRE(write_picture(folder / "a.exr", {film}));
   for (const char* name : {"a.tif", "a.png", "a.exr"}) {
     CAPTURE(name);
     // libpng leaves OpenImageIO by a long jump, past the destructor of a string.
