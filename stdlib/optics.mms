@@ -216,7 +216,8 @@ spectrum water_ior()
 
 /// Metal under a transparent film `thickness` metres thin: its colours are those of interference.
 /// >>> coated_metal(2.5, 3.0, 250nm)
-material coated_metal(spectrum n, k, real thickness, spectrum film_ior = 1.5, real roughness = 0.0) =
+material coated_metal(spectrum n, k, real thickness, spectrum film_ior = 1.5,
+    real roughness = 0.0) =
     film_conductor(n, k, film_ior, thickness, $wavelength, roughness);
 
 /// Smooth glass under a transparent film `thickness` metres thin, such as a lens' coating.
