@@ -10,6 +10,8 @@
 using mms::cli::Folder;
 using mms::cli::Outcome;
 
+#if MMS_RENDERER
+
 namespace {
 
 bool contains(const std::string& text, const std::string& part) {
@@ -17,8 +19,6 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 }  // namespace
-
-#if MMS_RENDERER
 
 TEST_CASE("compare tells how pictures differ, and ends with 5 above the threshold") {
   const Folder folder;
