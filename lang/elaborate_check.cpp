@@ -12,6 +12,23 @@ namespace mms::lang {
 
 using vm::SlotType;
 
+/// One slot of which nothing is known at link; right in any function, for a recursion that is
+/// checked is one of its own.
+Ref Elaborator::unknown_slot(SlotType type) {
+  const Ref x = node(vm::Op::PushInput, {}, 0, 0, {SlotType::Real});
+  switch (type) {
+    case SlotType::Integer:
+      return node(vm::Op::IntOfReal, {x}, 0, 0, {type});
+    case SlotType::Logic:
+      return node(vm::Op::EqR, {x, x}, 0, 0, {type});
+    case SlotType::Spectrum:
+      return node(vm::Op::Splat, {x}, 0, 0, {type});
+    case SlotType::Real:
+      break;
+  }
+  return x;
+}
+
 /// Some value of the type, of which nothing is known at link.
 Value Elaborator::unknown_value(TypeId type) {
   const Type t = types_[type];
@@ -19,7 +36,7 @@ Value Elaborator::unknown_value(TypeId type) {
     std::vector<SlotType> slots;
     slot_types(type, slots);
     std::vector<Ref> refs;
-    for (SlotType s : slots) refs.push_back(node(vm::Op::LoadLocal, {}, 0, 0, {s}));
+    for (SlotType s : slots) refs.push_back(unknown_slot(s));
     std::size_t next = 0;
     return unflatten(type, refs, next);
   }

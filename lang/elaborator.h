@@ -312,6 +312,7 @@ class Elaborator {
 
   // --- checking what nobody calls (elaborate_check.cpp) ---
   Value unknown_value(TypeId type);
+  Ref unknown_slot(vm::SlotType type);
   void check_function(FunctionDecl* d);
   void check_definitions();
   bool is_generic(Context c, const Function& f);
