@@ -149,7 +149,7 @@ TEST_CASE("patterns with edges of any direction are filtered nearly") {
            Shape{"spiral([$position.x, $position.y], 2, 0.4, [W, W])", 0.2, 0.02},
            Shape{"scratches([$position.x, $position.y], 3, 0.1, 2.0, 0.2, [W, W])", 0.2, 0.02},
        }) {
-    constexpr int kAcross = kSanitized ? 300 : 1200;
+    constexpr int kAcross = 1200;
     CAPTURE(shape.expression);
     CHECK(worst(shape.expression, 0.1, 60, 50, 50) <= shape.near);
     const Pattern sharp(with_width(shape.expression, 0)), wide(with_width(shape.expression, 1));
