@@ -61,7 +61,7 @@ TEST_CASE("the thesis' glossy model is lossless") {
   // m = 2 ln cosh n is about 2 n - 1.39: n = 5000 is m = 1e4.
   for (double gloss : {0.0, 1e-6, 0.01, 0.5, 4.0, 40.0, 1000.0, 5000.0})
     for (double degrees : {0.0, 30.0, 60.0, 85.0, 89.99}) {
-      const double a = albedo(glossy(1, gloss), degrees);
+      const double a = albedo(glossy(1, gloss), degrees, 0, 12);  // panels for 1e-6
       worst = std::max(worst, std::abs(a - 1));
       CHECK_MESSAGE(std::abs(a - 1) < 1e-6, gloss, " at ", degrees, ": ", a);
     }
