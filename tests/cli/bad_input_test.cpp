@@ -9,16 +9,13 @@
 
 #include "tests/cli/command.h"
 
+using mms::cli::contains;
 using mms::cli::Folder;
 using mms::cli::Outcome;
 
 namespace {
 
 constexpr const char* kGood = "surface \"good\"\n  bsdf = matte(0.5);\nend\n";
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// The message names the place and the matter, and helps; nothing else was printed.
 void check_message(const Outcome& run, int exit, const std::string& where,

@@ -8,6 +8,10 @@
 
 namespace mms::cli {
 
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 /// What a run left.
 struct Outcome {
   int exit = -1;  ///< exit code; 128 and the signal's number if a signal ended it

@@ -7,18 +7,11 @@
 
 #include "tests/cli/command.h"
 
+using mms::cli::contains;
 using mms::cli::Folder;
 using mms::cli::Outcome;
 
 #if MMS_RENDERER
-
-namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-}  // namespace
 
 TEST_CASE("compare tells how pictures differ, and ends with 5 above the threshold") {
   const Folder folder;

@@ -8,16 +8,13 @@
 
 #include "tests/cli/command.h"
 
+using mms::cli::contains;
 using mms::cli::Folder;
 using mms::cli::Outcome;
 
 #if MMS_RENDERER
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
   std::vector<std::vector<std::string>> rows;

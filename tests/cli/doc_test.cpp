@@ -12,6 +12,7 @@
 
 #include "tests/cli/command.h"
 
+using mms::cli::contains;
 using mms::cli::Folder;
 using mms::cli::Outcome;
 
@@ -22,10 +23,6 @@ constexpr const char* kScript =
     "/// Half of `x`, if x < 3 & more.\n/// >>> half(3.0)\n/// 1.5\n"
     "real half(real x) = x / 2;\n"
     "/// Grey.\nsurface s\n    bsdf = matte(half(1.0));\nend\n";
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// What is wrong with the nesting of the elements of a page, or empty.
 std::string nesting_fault(const std::string& html) {

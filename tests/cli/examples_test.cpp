@@ -10,6 +10,7 @@
 
 #include "tests/cli/command.h"
 
+using mms::cli::contains;
 using mms::cli::Folder;
 using mms::cli::Outcome;
 using nlohmann::json;
@@ -17,10 +18,6 @@ using nlohmann::json;
 namespace {
 
 namespace fs = std::filesystem;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 Outcome test(const std::string& script, const std::string& args = "") {
   const Folder folder;

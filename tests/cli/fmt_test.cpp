@@ -9,6 +9,7 @@
 
 #include "tests/cli/command.h"
 
+using mms::cli::contains;
 using mms::cli::Folder;
 using mms::cli::Outcome;
 
@@ -18,10 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kUntidy = "surface  s\nbsdf=matte(1); // grey\nend";
 constexpr const char* kTidy = "surface s\n    bsdf = matte(1);  // grey\nend\n";
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 }  // namespace
 

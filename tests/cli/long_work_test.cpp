@@ -9,16 +9,13 @@
 #include "tests/cli/command.h"
 #include "tests/sanitized.h"
 
+using mms::cli::contains;
 using mms::cli::Folder;
 using mms::cli::Outcome;
 
 namespace {
 
 constexpr const char* kScript = "surface \"s\" bsdf = matte(0.5 + 0.4 * $position[1]); end\n";
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 #if MMS_RENDERER
 /// Runs well and silently.

@@ -7,6 +7,7 @@
 
 #include "tests/cli/command.h"
 
+using mms::cli::contains;
 using mms::cli::Folder;
 using mms::cli::Outcome;
 using nlohmann::json;
@@ -18,10 +19,6 @@ constexpr const char* kBumpy =
     "  height = 0.1 * sin(30.0 * $object_position[0])\n"
     "    + 0.01 * perlin(8.0 * $object_position);\n"
     "end\n";
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 
 #include "tests/cli/command.h"
 
+using mms::cli::contains;
 using mms::cli::Folder;
 using mms::cli::Outcome;
 using nlohmann::json;
@@ -21,10 +22,6 @@ constexpr const char* kMarble =
     "  bsdf = mix(matte(0.25), matte(0.75), scale * $position[0]);\n"
     "  height = stripe($uv[1]);\n"
     "end\n";
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 std::string eval(const std::string& args, const std::string& input = "") {
   const Folder folder;

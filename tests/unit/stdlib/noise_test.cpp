@@ -17,16 +17,6 @@ const vm::Builtin& perlin_gradient(int n) {
               " perlin_gradient(" + formal(n) + ")");
 }
 
-template <class R>
-std::vector<Column<R>> random_points(int n, int count, double size, unsigned seed = 11) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> any(-size, size);
-  std::vector<Column<R>> p(n, Column<R>(count));
-  for (int i = 0; i < count; ++i)
-    for (int k = 0; k < n; ++k) p[k][i] = R(any(random));
-  return p;
-}
-
 /// Largest projection of `d` on a lattice vector, from what the documentation of noise.h says of
 /// those vectors.
 double largest_projection(std::vector<double> d) {
@@ -185,16 +175,6 @@ TEST_CASE("beyond the range of the lattice noise is still finite and in range") 
     CHECK(call<float>(find("real cellnoise(real[2] p)"), x, 0.5f) < 1);
   }
   CHECK(std::isnan(call<float>(perlin(3), NAN, 0.3f, 0.6f)));
-}
-
-/// Chi-square of `v` in [0, 1) over 256 equal bins: mean 255, standard deviation 22.6.
-double chi_square(const Column<float>& v) {
-  std::array<double, 256> bins{};
-  for (float x : v) ++bins[std::size_t(x * 256)];
-  const double expected = double(v.size()) / 256;
-  double sum = 0;
-  for (double b : bins) sum += (b - expected) * (b - expected) / expected;
-  return sum;
 }
 
 TEST_CASE("hash and cellnoise are uniform, also along the lattice") {

@@ -4,6 +4,7 @@
 /// \file
 /// Calls the kernels of library rows over plain arrays, for tests.
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -137,6 +138,27 @@ bool same_bits(R a, R b) {
 /// A float of any bits.
 inline float any_float(std::mt19937& random) {
   return std::bit_cast<float>(std::uint32_t(random()));
+}
+
+/// `count` points in `n` dimensions, each coordinate in [-size, size): a column for each.
+template <class R>
+std::vector<Column<R>> random_points(int n, int count, double size, unsigned seed = 11) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(-size, size);
+  std::vector<Column<R>> p(n, Column<R>(count));
+  for (int i = 0; i < count; ++i)
+    for (int k = 0; k < n; ++k) p[k][i] = R(any(random));
+  return p;
+}
+
+/// Chi-square of `v` in [0, 1) over 256 equal bins: mean 255, standard deviation 22.6.
+inline double chi_square(const Column<float>& v) {
+  std::array<double, 256> bins{};
+  for (float x : v) ++bins[std::size_t(x * 256)];
+  const double expected = double(v.size()) / 256;
+  double sum = 0;
+  for (double b : bins) sum += (b - expected) * (b - expected) / expected;
+  return sum;
 }
 
 }  // namespace mms::stdlib::testing

@@ -40,16 +40,6 @@ void for_each_kind(F f) {
 template <class R>
 using Columns = std::vector<Column<R>>;
 
-template <class R>
-Columns<R> random_points(int n, int count, double size, unsigned seed = 11) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> any(-size, size);
-  Columns<R> p(n, Column<R>(count));
-  for (int i = 0; i < count; ++i)
-    for (int k = 0; k < n; ++k) p[k][i] = R(any(random));
-  return p;
-}
-
 /// Points with a seed and periods behind them.
 template <class R>
 Columns<R> with(const Columns<R>& p, int seed, std::vector<double> periods = {}) {
@@ -283,16 +273,6 @@ TEST_CASE("float and double noise agree wherever floats hold the place, with per
       }
     }
   });
-}
-
-/// Chi-square of `v` in [0, 1) over 256 equal bins: mean 255, standard deviation 22.6.
-double chi_square(const Column<float>& v) {
-  std::array<double, 256> bins{};
-  for (float x : v) ++bins[std::size_t(x * 256)];
-  const double expected = double(v.size()) / 256;
-  double sum = 0;
-  for (double b : bins) sum += (b - expected) * (b - expected) / expected;
-  return sum;
 }
 
 TEST_CASE("hash and cellnoise of a seed are uniform along the lattice and over seeds, and repeat") {

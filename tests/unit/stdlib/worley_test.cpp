@@ -46,16 +46,6 @@ std::vector<Column<R>> arguments(const std::vector<Column<R>>& p, const Setting&
   return in;
 }
 
-template <class R>
-std::vector<Column<R>> random_points(int n, int count, double size, unsigned seed = 11) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> any(-size, size);
-  std::vector<Column<R>> p(n, Column<R>(count));
-  for (int i = 0; i < count; ++i)
-    for (int k = 0; k < n; ++k) p[k][i] = R(any(random));
-  return p;
-}
-
 double distance(const Vector& v, double exponent) {
   double sum = 0, largest = 0;
   for (double x : v) {
