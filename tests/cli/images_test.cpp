@@ -12,11 +12,6 @@ using mms::cli::Outcome;
 
 namespace {
 
-/// Two columns, black and white.
-void write_picture(const Folder& folder, const std::string& name) {
-  folder.write(name, std::string("P5 2 1 255\n") + '\0' + '\xff');
-}
-
 constexpr const char* kScript =
     "real a() = image_value(\"p.pgm\", [0.5, 0.5], filter = \"bilinear\", width = 0);\n"
     "real g() = gradient(function(u) -> image_value(\"p.pgm\", [u, 0.5], filter = \"bilinear\","
@@ -49,6 +44,15 @@ TEST_CASE("a missing image is told with every place, and --missing=magenta goes 
 }
 
 #if MMS_RENDERER
+
+namespace {
+
+/// Two columns, black and white.
+void write_picture(const Folder& folder, const std::string& name) {
+  folder.write(name, std::string("P5 2 1 255\n") + '\0' + '\xff');
+}
+
+}  // namespace
 
 TEST_CASE("images reach eval, bounds, compile, deps and render") {
   const Folder folder;
