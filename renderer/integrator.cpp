@@ -90,6 +90,7 @@ void Integrator::trace(std::span<const PixelSample> samples, std::span<FilmSampl
   while (!now_.empty()) {
     flights_.fly(now_, views_);
     gather();
+    if (world_.nested) ask_surroundings();
     next_.clear();
     shadows_.clear();
     connections_.clear();
@@ -138,9 +139,9 @@ void Integrator::gather() {
       p.radiance += weight * world_.lights.environment(d, p.cluster);
     } else if (f.end == End::Surface || f.end == End::Medium) {
       const bool medium = f.end == End::Medium;
-      const int kind = medium ? int(world_.scene.surfaces.size()) +
-                                    world_.scene.objects[f.media.current()].volume
-                              : world_.scene.objects[f.hit.object].surface;
+      const int kind =
+          medium ? int(world_.scene.surfaces.size()) + world_.scene.objects[f.medium].volume
+                 : world_.scene.objects[f.hit.object].surface;
       Vertex v{&f, kind, script_point(world_, f, medium ? nullptr : &f.hit, views_[f.path])};
       p.travelled += f.t;
       v.point.cone = world_.camera.pixel_angle() * p.travelled;
@@ -149,6 +150,41 @@ void Integrator::gather() {
   }
   std::stable_sort(vertices_.begin(), vertices_.end(),
                    [](const Vertex& a, const Vertex& b) { return a.kind < b.kind; });
+}
+
+/// Nested dielectrics: a surface that lies in another object has its index over that object's,
+/// which is asked for at the very point.
+void Integrator::ask_surroundings() {
+  nested_.clear();
+  for (Vertex& v : vertices_) {
+    if (v.from->end != End::Surface) continue;
+    const int object = v.from->hit.object;
+    if (world_.scene.objects[object].priority == 0) continue;
+    const int around = surrounding(world_.scene, v.from->media, object);
+    if (around < 0) continue;
+    const Surface& s = world_.surface_of_object(around);
+    if (s.script && world_.compiled.of(s.script).index) nested_.push_back({&v, around});
+  }
+  const auto surface = [&](const Nested& n) { return world_.scene.objects[n.around].surface; };
+  std::stable_sort(nested_.begin(), nested_.end(),
+                   [&](const Nested& a, const Nested& b) { return surface(a) < surface(b); });
+  for (std::size_t first = 0, last = 0; first < nested_.size(); first = last) {
+    outside_points_.clear();
+    while (last < nested_.size() && last - first < std::size_t(scripts_.width()) &&
+           surface(nested_[last]) == surface(nested_[first])) {
+      const Nested& n = nested_[last++];
+      outside_points_.push_back(n.vertex->point);
+      outside_points_.back().object = &world_.scene.objects[n.around];
+    }
+    lanes_.clear();
+    for (const ScriptPoint& p : outside_points_) lanes_.push_back(&p);
+    const vm::Descriptor& d = *world_.scene.surfaces[surface(nested_[first])].script;
+    scripts_.run(d, EntryKind::Shade, lanes_);
+    for (std::size_t i = first; i < last; ++i)
+      if (!scripts_.given_up(int(i - first)))
+        nested_[i].vertex->outside =
+            scripts_.spectrum(*world_.compiled.of(&d).index, int(i - first));
+  }
 }
 
 void Integrator::add_emission(const Vertex& v, const Spectrumf& emitted) {
@@ -201,6 +237,7 @@ void Integrator::shade(std::span<const Vertex> group) {
       scatter(v, {matte_layout(), params, false, shading_frame(s, {0, 0}, v.point.view)});
       continue;
     }
+    if (world_.nested) immerse(c.material, v.outside, params);
     if (c.emits)
       add_emission(v, scripted_emission(world_.compiled, scripts_, *d, EntryKind::Shade, i, s,
                                         v.point.view, scratch_));
@@ -217,7 +254,7 @@ void Integrator::follow(Flight& f, const Vertex& v, Vec3d direction) const {
   const double in = dot(direction, n);
   if (in * dot(v.point.view, n) >= 0) return;
   world_.cross(f.media, v.from->hit.object, in < 0);
-  f.medium_object = -1;
+  f.forget_media();
 }
 
 /// Lights a vertex, and sends the path on in a direction drawn for the hero.
@@ -262,7 +299,7 @@ void Integrator::connect(const Vertex& v, const Scatterer& s) {
   if (!(light.pdf > 0)) return;
   Flight f = *v.from;
   if (!s.medium) follow(f, v, light.direction);
-  if (const int inside = f.media.current(); inside >= 0 && world_.sealed[inside]) return;
+  if (world_.sealed_in(f.media)) return;
   const Scatterer::Sampled towards = s.evaluate(v.point, light.direction);
   if (towards.f.is_black()) return;
 

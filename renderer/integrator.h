@@ -41,9 +41,15 @@ class Integrator {
     const Flight* from;
     int kind;  ///< surfaces first, then volumes: what to run
     ScriptPoint point;
+    Spectrumf outside{1.0f};  ///< index of what its surface lies in
   };
   /// What scatters at a vertex: a Bsdf in its frame or a Phase in world space.
   struct Scatterer;
+  /// A vertex whose surface lies in something that bends light too.
+  struct Nested {
+    Vertex* vertex;
+    int around;  ///< object
+  };
   /// Light drawn for a vertex, on its way to be asked for and shadowed.
   struct Connection {
     int flight;  ///< in shadows_
@@ -52,6 +58,7 @@ class Integrator {
 
   void start(std::span<const PixelSample> samples, std::span<FilmSample> stream);
   void gather();
+  void ask_surroundings();
   void shade(std::span<const Vertex> group);
   void scatter(const Vertex& v, const Scatterer& s);
   void follow(Flight& f, const Vertex& v, Vec3d direction) const;
@@ -68,7 +75,8 @@ class Integrator {
   std::vector<Flight> now_, next_, shadows_;
   std::vector<Vertex> vertices_;
   std::vector<Connection> connections_;
-  std::vector<ScriptPoint> light_points_;
+  std::vector<Nested> nested_;
+  std::vector<ScriptPoint> light_points_, outside_points_;
   std::vector<const ScriptPoint*> lanes_;
   std::vector<float> params_, scratch_;
 };

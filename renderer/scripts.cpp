@@ -19,6 +19,17 @@ bool constant_equal(const vm::Program& p, const vm::ValueSource& v, float value)
   return v.constant && p.constants[v.index].f32 == value;
 }
 
+const vm::ValueSource* index_of(const vm::MaterialLayout& material) {
+  for (const vm::LayoutNode& node : material.nodes) {
+    const auto lobe = materials::Lobe(node.lobe);
+    const materials::Formals& formals = materials::formals(lobe);
+    if (!(materials::traits(lobe) & materials::Dispersive)) continue;
+    for (int i = 0; i < formals.count; ++i)  // no argument of such a lobe is a material
+      if (formals.index[i]) return &node.params[std::size_t(i)];
+  }
+  return nullptr;
+}
+
 bool placeless(const vm::OutputInfo& o) { return (o.variables & ~kPlaceless) == 0; }
 
 CompiledDescriptor compile(const vm::Program& p, const vm::Descriptor& d) {
@@ -31,6 +42,7 @@ CompiledDescriptor compile(const vm::Program& p, const vm::Descriptor& d) {
   c.emits = !constant_equal(p, d.shade.emission, 0);
   c.bumps =
       !constant_equal(p, d.shade.gradient[0], 0) || !constant_equal(p, d.shade.gradient[1], 0);
+  c.index = index_of(d.shade.material);
   c.constant_material = true;
   for (const vm::LayoutNode& node : d.shade.material.nodes)
     for (const vm::ValueSource& v : node.params) c.constant_material &= v.constant;
