@@ -84,40 +84,66 @@ ScriptPoint script_point(const World& world, const Flight& f, const Hit* hit,
   return p;
 }
 
-void Flights::fly(std::vector<Flight>& flights, const std::vector<PathView>& paths) {
+void Flights::fly(std::vector<Flight>& flights, const std::vector<PathView>& paths, double left) {
   if (world_.plain) {
     Crossings none;
-    for (Flight& f : flights) trace(f, none, 0);
+    for (Flight& f : flights)
+      if (f.end == End::Flying) trace(f, none, 0);
     return;
   }
-  crossings_.resize(flights.size());
   flying_.clear();
   for (int i = 0; i < int(flights.size()); ++i) {
-    trace(flights[i], crossings_[i], 0);
+    if (flights[i].end != End::Flying) continue;
+    if (flights[i].crossings < 0) begin(flights[i]);
     if (flights[i].end == End::Flying) flying_.push_back(i);
   }
-  while (!flying_.empty()) {
-    requests_.clear();
-    for (int i : flying_) {
+  const auto enough = std::size_t(left * double(flying_.size()));
+  while (flying_.size() > enough) {
+    advance_all(flights, paths);
+    std::erase_if(flying_, [&](int i) {
       Flight& f = flights[i];
-      const Need need = advance(f, crossings_[i], paths[f.path]);
-      if (need == Need::Nothing) continue;
-      const int key = need == Need::Crossing
-                          ? world_.scene.objects[crossings_[i].hits[f.next].object].surface
-                          : world_.scene.objects[f.medium].volume;
-      requests_.push_back({i, need, key});
-    }
-    std::stable_sort(requests_.begin(), requests_.end(), [](const Request& a, const Request& b) {
-      return std::pair(a.need, a.key) < std::pair(b.need, b.key);
+      if (f.end == End::Flying) return false;
+      free_crossings_.push_back(f.crossings);
+      f.crossings = -1;
+      return true;
     });
-    for (std::size_t first = 0, last = 0; first < requests_.size(); first = last) {
-      while (last < requests_.size() && last - first < std::size_t(scripts_.width()) &&
-             requests_[last].need == requests_[first].need &&
-             requests_[last].key == requests_[first].key)
-        ++last;
-      answer(flights, paths, std::span(requests_).subspan(first, last - first));
-    }
-    std::erase_if(flying_, [&](int i) { return flights[i].end != End::Flying; });
+  }
+}
+
+/// Traces a flight that has not begun.
+void Flights::begin(Flight& f) {
+  if (free_crossings_.empty()) {
+    free_crossings_.push_back(int(crossings_.size()));
+    crossings_.emplace_back();
+  }
+  trace(f, crossings_[free_crossings_.back()], 0);
+  if (f.end != End::Flying) return;
+  f.crossings = free_crossings_.back();
+  free_crossings_.pop_back();
+}
+
+/// Each flight goes on to its end or to where a script has to be asked, and is answered.
+void Flights::advance_all(std::vector<Flight>& flights, const std::vector<PathView>& paths) {
+  requests_.clear();
+  for (int i : flying_) {
+    Flight& f = flights[i];
+    Crossings& crossings = crossings_[f.crossings];
+    const Need need = advance(f, crossings, paths[f.path]);
+    if (need == Need::Nothing) continue;
+    const int key = need == Need::Crossing
+                        ? world_.scene.objects[crossings.hits[f.next].object].surface
+                        : world_.scene.objects[f.medium].volume;
+    requests_.push_back({i, need, key});
+  }
+  std::stable_sort(requests_.begin(), requests_.end(), [](const Request& a, const Request& b) {
+    return std::pair(a.need, a.key) < std::pair(b.need, b.key);
+  });
+  for (std::size_t first = 0, last = 0; first < requests_.size(); first = last) {
+    while (last < requests_.size() && last - first < std::size_t(scripts_.width()) &&
+           requests_[last].need == requests_[first].need &&
+           requests_[last].key == requests_[first].key)
+      ++last;
+    answer(flights, paths, std::span(requests_).subspan(first, last - first));
   }
 }
 
@@ -182,7 +208,7 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
   points_.clear();
   for (const Request& r : requests) {
     Flight& f = flights[r.flight];
-    const Hit* hit = need == Need::Crossing ? &crossings_[r.flight].hits[f.next] : nullptr;
+    const Hit* hit = need == Need::Crossing ? &crossings_[f.crossings].hits[f.next] : nullptr;
     points_.push_back(script_point(world_, f, hit, paths[f.path]));
   }
   lanes_.clear();
@@ -206,8 +232,8 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
   const Surface& surface = world_.scene.surfaces[requests[0].key];
   if (!surface.script) {  // only an invisible one comes here
     for (int i = 0; i < n; ++i)
-      cross(flights[requests[i].flight], crossings_[requests[i].flight], points_[i], Spectrumf(),
-            Spectrumf(), paths[flights[requests[i].flight].path]);
+      cross(flights[requests[i].flight], points_[i], Spectrumf(), Spectrumf(),
+            paths[flights[requests[i].flight].path]);
     return;
   }
   const vm::Descriptor& d = *surface.script;
@@ -226,7 +252,7 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
   for (int i = 0; i < n; ++i) {
     Flight& f = flights[requests[i].flight];
     const bool lost = scripts_.given_up(i);
-    cross(f, crossings_[requests[i].flight], points_[i],
+    cross(f, points_[i],
           lost ? Spectrumf(1.0f) : unit_clamped(scripts_.spectrum(d.pass.scattering, i)),
           lost ? Spectrumf() : unit_clamped(scripts_.spectrum(d.pass.absorption, i)),
           paths[f.path]);
@@ -234,15 +260,14 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
 }
 
 /// A semi-transparent surface: scattered there, or straight through with (1 - s)(1 - a).
-void Flights::cross(Flight& f, const Crossings& crossings, const ScriptPoint& point,
-                    const Spectrumf& scattering, const Spectrumf& absorption,
-                    const PathView& path) {
+void Flights::cross(Flight& f, const ScriptPoint& point, const Spectrumf& scattering,
+                    const Spectrumf& absorption, const PathView& path) {
   const Spectrumf one(1.0f);
   const Spectrumf through = (one - scattering) * (one - absorption);
   const Spectrumf either = scattering + through;
   Spectrumf p_through;
   for (int k = 0; k < kWavelengths; ++k) p_through[k] = either[k] > 0 ? through[k] / either[k] : 0;
-  const Hit& hit = crossings.hits[f.next];
+  const Hit& hit = crossings_[f.crossings].hits[f.next];
   const bool inwards = dot(point.surface.geometric_normal, point.view) > 0;
   if (f.errand == Errand::Shadow) {
     f.carried.beta *= through;

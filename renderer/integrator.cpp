@@ -23,6 +23,12 @@ constexpr int kFirstRoulette = 3;
 /// what it is again outside, so a path that carries a third may have lost nothing.
 constexpr float kSafeContribution = 1.0f / 3;
 
+/// Rays that fly together, at least: enough to fill batches though scripts differ.
+constexpr std::size_t kTogether = 2048;
+
+/// Share of them that is left for the next time, lest few long ways hold up the rest.
+constexpr double kLeftFlying = 0.5;
+
 /// `matte`: what a surface of the scene scatters by, and the default of a script that gave up.
 const materials::Layout& matte_layout() {
   static const materials::Layout layout(
@@ -86,70 +92,85 @@ Integrator::Integrator(const World& world)
     : world_(world), scripts_(world.compiled), flights_(world, scripts_) {}
 
 void Integrator::trace(std::span<const PixelSample> samples, std::span<FilmSample> stream) {
-  start(samples, stream);
-  while (!now_.empty()) {
-    flights_.fly(now_, views_);
-    gather();
-    if (world_.nested) ask_surroundings();
+  paths_.clear();
+  paths_.reserve(samples.size());  // views point into it
+  views_.clear();
+  now_.clear();
+  for (;;) {
+    while (paths_.size() < samples.size() && now_.size() < kTogether)
+      start(samples[paths_.size()], stream[paths_.size()]);
+    if (now_.empty()) break;
+    flights_.fly(now_, views_, kLeftFlying);
     next_.clear();
     shadows_.clear();
     connections_.clear();
+    gather();
+    if (world_.nested) ask_surroundings();
     for (std::size_t first = 0, last = 0; first < vertices_.size(); first = last) {
       while (last < vertices_.size() && last - first < std::size_t(scripts_.width()) &&
              vertices_[last].kind == vertices_[first].kind)
         ++last;
       shade(std::span(vertices_).subspan(first, last - first));
     }
-    light_connections();
+    ask_emitters();
+    send_shadow_rays();
     std::swap(now_, next_);
   }
   for (std::size_t i = 0; i < samples.size(); ++i)
-    stream[i].xyz = paths_[i].cluster.xyz(paths_[i].radiance);
+    stream[i].xyz = paths_[i].cluster.xyz(paths_[i].radiance + paths_[i].lit);
 }
 
-/// Draws wavelengths and camera rays.
-void Integrator::start(std::span<const PixelSample> samples, std::span<FilmSample> stream) {
-  paths_.assign(samples.size(), {});
-  views_.clear();
-  now_.clear();
-  for (int i = 0; i < int(samples.size()); ++i) {
-    const PixelSample& s = samples[i];
-    Path& p = paths_[i];
-    p.sampler = Sampler(world_.seed, s.x, s.y, std::uint64_t(s.sample), world_.generator);
-    p.cluster = sample_cluster(cluster_number(p.sampler(kWavelength)));
-    FilmSample& point = stream[i];
-    point.x = s.x + double(p.sampler(kFilmX));
-    point.y = s.y + double(p.sampler(kFilmY));
-    point.number = std::uint32_t(s.sample);
-    views_.push_back({&p.cluster, &p.sampler, &p.radiance, world_.camera.pixel_angle()});
-    now_.push_back(camera_flight(world_, i, p.sampler, point.x, point.y));
-  }
+/// Draws wavelengths and the camera ray of a new path.
+void Integrator::start(const PixelSample& s, FilmSample& point) {
+  const int i = int(paths_.size());
+  Path& p = paths_.emplace_back();
+  p.sampler = Sampler(world_.seed, s.x, s.y, std::uint64_t(s.sample), world_.generator);
+  p.cluster = sample_cluster(cluster_number(p.sampler(kWavelength)));
+  point.x = s.x + double(p.sampler(kFilmX));
+  point.y = s.y + double(p.sampler(kFilmY));
+  point.number = std::uint32_t(s.sample);
+  views_.push_back({&p.cluster, &p.sampler, &p.radiance, world_.camera.pixel_angle()});
+  now_.push_back(camera_flight(world_, i, p.sampler, point.x, point.y));
 }
 
-/// Adds what the environment sends along rays that left the scene, and orders the rest by what
-/// has to be run for them.
+/// Adds what shadow rays found and what the environment sends along rays that left the scene, and
+/// orders the rest by what has to be run for them. What is not done stays for the next time.
 void Integrator::gather() {
+  for (const Flight& f : now_) {
+    if (f.errand != Errand::Shadow || f.end == End::Flying) continue;
+    Path& p = paths_[f.path];
+    p.asks = false;
+    if (f.end == End::Free) p.lit += f.carried.weighted(f.light_density, world_.estimator);
+  }
   vertices_.clear();
+  arrived_.clear();
   for (const Flight& f : now_) {
     Path& p = paths_[f.path];
-    if (f.end == End::Free) {
+    const bool vertex = f.end == End::Surface || f.end == End::Medium;
+    if (f.end == End::Flying || (vertex && p.asks)) {
+      next_.push_back(f);
+    } else if (vertex) {
+      const int kind = f.end == End::Medium ? int(world_.scene.surfaces.size()) +
+                                                  world_.scene.objects[f.medium].volume
+                                            : world_.scene.objects[f.hit.object].surface;
+      arrived_.push_back({kind, &f});
+    } else if (f.end == End::Free && f.errand == Errand::Path) {
       const Vec3d d(f.direction);
       const Spectrumf weight =
           f.carried.weighted(world_.lights.pdf_environment(Vec3d(f.origin), d), world_.estimator);
       p.radiance += weight * world_.lights.environment(d, p.cluster);
-    } else if (f.end == End::Surface || f.end == End::Medium) {
-      const bool medium = f.end == End::Medium;
-      const int kind =
-          medium ? int(world_.scene.surfaces.size()) + world_.scene.objects[f.medium].volume
-                 : world_.scene.objects[f.hit.object].surface;
-      Vertex v{&f, kind, script_point(world_, f, medium ? nullptr : &f.hit, views_[f.path])};
-      p.travelled += f.t;
-      v.point.cone = world_.camera.pixel_angle() * p.travelled;
-      vertices_.push_back(v);
     }
   }
-  std::stable_sort(vertices_.begin(), vertices_.end(),
-                   [](const Vertex& a, const Vertex& b) { return a.kind < b.kind; });
+  std::stable_sort(arrived_.begin(), arrived_.end(),
+                   [](const Arrived& a, const Arrived& b) { return a.kind < b.kind; });
+  for (const auto& [kind, f] : arrived_) {
+    const Hit* hit = f->end == End::Surface ? &f->hit : nullptr;
+    Path& p = paths_[f->path];
+    Vertex v{f, kind, script_point(world_, *f, hit, views_[f->path]), Spectrumf(1.0f)};
+    p.travelled += f->t;
+    v.point.cone = world_.camera.pixel_angle() * p.travelled;
+    vertices_.push_back(v);
+  }
 }
 
 /// Nested dielectrics: a surface that lies in another object has its index over that object's,
@@ -331,12 +352,13 @@ void Integrator::connect(const Vertex& v, const Scatterer& s) {
   f.t = 0;
   f.step = 0;
   f.stream = 2 * std::uint32_t(p.depth) + 1;
+  f.light_density = light.pdf;
   connections_.push_back({int(shadows_.size()), light});
   shadows_.push_back(f);
 }
 
-/// Asks scripted emitters what they radiate, lets the shadow rays fly, and adds what arrives.
-void Integrator::light_connections() {
+/// Asks scripted emitters what they radiate towards the vertices that drew them.
+void Integrator::ask_emitters() {
   std::vector<Connection> asked;
   for (const Connection& c : connections_)
     if (c.light.object != kEnvironment && world_.surface_of_object(c.light.object).script)
@@ -374,20 +396,14 @@ void Integrator::light_connections() {
       shadows_[asked[i].flight].carried.beta *= emitted;
     }
   }
-  std::vector<double> densities(shadows_.size());
-  for (const Connection& c : connections_) densities[c.flight] = c.light.pdf;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < shadows_.size(); ++i) {
-    if (shadows_[i].carried.beta.is_black()) continue;
-    shadows_[kept] = shadows_[i];
-    densities[kept++] = densities[i];
+}
+
+void Integrator::send_shadow_rays() {
+  for (const Flight& f : shadows_) {
+    if (f.carried.beta.is_black()) continue;
+    paths_[f.path].asks = true;
+    next_.push_back(f);
   }
-  shadows_.resize(kept);
-  flights_.fly(shadows_, views_);
-  for (std::size_t i = 0; i < kept; ++i)
-    if (shadows_[i].end == End::Free)
-      paths_[shadows_[i].path].radiance +=
-          shadows_[i].carried.weighted(densities[i], world_.estimator);
 }
 
 /// Russian roulette by the mean contribution that the path still carries. It is the same whatever

@@ -104,8 +104,9 @@ class Scripts {
   std::uint64_t fault_lanes() const { return fault_lanes_; }
 
  private:
-  void fill(const ScriptPoint& p, int lane, std::uint32_t variables);
-  void put(vm::Variable v, int lane, Vec3d value);
+  void fill(std::span<const ScriptPoint* const> points, std::uint32_t variables);
+  template <class F>
+  void put(vm::Variable v, std::span<const ScriptPoint* const> points, F value);
 
   const Compiled* compiled_;
   std::unique_ptr<vm::Interpreter<float>> machine_;
