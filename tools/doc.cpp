@@ -75,8 +75,17 @@ Exit print_script(const DocOptions& options) {
   return Exit::Ok;
 }
 
+/// A page that is written by hand: as HTML it goes with the others.
+Exit print_markdown(const DocOptions& options) {
+  const Result<lang::SourcePtr> page = api::read_source(options.page);
+  if (!page) return fail(Exit::File, page.error(), options);
+  fmt::print("{}", rendered((*page)->text, options));
+  return Exit::Ok;
+}
+
 Exit print_page(const DocOptions& options) {
   if (options.page == "-" || options.page.ends_with(".mms")) return print_script(options);
+  if (options.page.ends_with(".md")) return print_markdown(options);
   std::vector<std::string> names;
   for (const Document& page : documents()) {
     if (page.name == options.page) {
@@ -115,7 +124,8 @@ Verb doc_verb() {
       {},
       [options] { return doc(*options); }};
   verb.add({"PAGE", &options->page, "",
-            "The page, or a script (*.mms, - is standard input); none lists the pages"});
+            "The page, a script (*.mms, - is standard input) or a page of your own (*.md); none "
+            "lists the pages"});
   verb.add({"--html", &options->html, "", "As one HTML page with a search box, not as Markdown"});
   verb.add({"--write", &options->write, "DIR", "Write all pages to a folder"});
   verb.add({"--check", &options->check, "DIR", "Fail if a page in a folder is out of date"});
