@@ -8,6 +8,7 @@
 /// step has derivative zero. `floor`-like rows state the derivative 0.
 
 #include "lang/elaborator.h"
+#include "vm/limits.h"
 
 namespace mms::lang {
 
@@ -62,8 +63,19 @@ Ref Elaborator::sum(std::optional<Ref> a, std::optional<Ref> b) {
   return a && b ? derived_op(Op::AddR, Op::AddS, {*a, *b}) : a ? *a : *b;
 }
 
-/// Whether all of the function is there to be differentiated; says so where it is not.
-bool Elaborator::is_complete(FunctionId function) {
+int Elaborator::derivative_order(FunctionId function) const {
+  const auto it = derivative_orders_.find(function);
+  return it == derivative_orders_.end() ? 0 : it->second;
+}
+
+/// Whether the function can be differentiated; says why where it cannot.
+bool Elaborator::can_derive(FunctionId function) {
+  if (derivative_order(function) >= vm::limits::kDerivativeOrder) {
+    diagnostics_.add(Diag::NoDerivative, deriving_.span, module.functions[function].name)
+        .help(fmt::format("a recursive function is differentiated {} times at most",
+                          vm::limits::kDerivativeOrder));
+    return false;
+  }
   auto instance = instance_of_.find(function);
   if (instance == instance_of_.end() || instance->second->complete) return true;
   diagnostics_.add(Diag::NoDerivative, deriving_.span, module.functions[function].name)
@@ -78,6 +90,7 @@ FunctionId Elaborator::derive_function(FunctionId function, int direction) {
   if (it != derived_.end()) return it->second;
   const FunctionId derived = new_function(module.functions[function].name + "'");
   derived_[{function, direction}] = derived;
+  derivative_orders_[derived] = derivative_order(function) + 1;
   const IrFunction& from = module.functions[function];
   IrFunction& to = module.functions[derived];
   to.recursive = true;
@@ -215,7 +228,7 @@ void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
     case Op::Call: {
       bool active = false;
       for (Ref a : n.args) active = active || t.count(a);
-      if (!active || !is_complete(n.a)) return;
+      if (!active || !can_derive(n.a)) return;
       const FunctionId derived = derive_function(n.a, direction);
       std::vector<Ref> args = n.args;
       for (std::size_t k = 0; k < n.args.size(); ++k)

@@ -292,7 +292,8 @@ class Elaborator {
   std::optional<Ref> tangent(const Tangents& t, Ref r) const;
   void derive_node(std::uint32_t index, int direction, Tangents& t);
   Ref derived_op(vm::Op op, vm::Op spectral, std::vector<Ref> args);
-  bool is_complete(FunctionId function);
+  int derivative_order(FunctionId function) const;
+  bool can_derive(FunctionId function);
   FunctionId derive_function(FunctionId function, int direction);
   Ref sum(std::optional<Ref> a, std::optional<Ref> b);
   Value derive_gradient(const Value& height, Span span);
@@ -390,6 +391,7 @@ class Elaborator {
   /// Images of the program by the folder of the script and what it writes.
   std::map<std::pair<std::string, std::string>, std::vector<std::uint32_t>> image_numbers_;
   std::vector<MissingImage> missing_images_;
+  std::map<FunctionId, int> derivative_orders_;               ///< of derived functions
   std::map<std::pair<FunctionId, int>, FunctionId> derived_;  ///< by function and direction
   Deriving deriving_;
   std::map<Ref, Ref>

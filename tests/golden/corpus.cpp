@@ -111,6 +111,15 @@ std::string wide_calls(int n) {
   return text + fmt::format("  return s{};", n);
 }
 
+std::string derivatives(int n) {
+  std::string text =
+      "real f0(real x) = power(integer($time), x);\n"
+      "real power(integer k, real x) = select x, if k == 0; x * power(k - 1, x) otherwise end;\n";
+  for (int i = 1; i <= n; ++i)
+    text += fmt::format("real f{0}(real x) = gradient(#f{1}, x);\n", i, i - 1);
+  return text + fmt::format("real a() = f{}($position.x);\n", n);
+}
+
 std::string bytes(int n) {
   std::string text = "const a = 1;";
   text.resize(static_cast<std::size_t>(n), ' ');
@@ -132,6 +141,8 @@ std::vector<Limit> make_limits() {
        "E0305", ""},
       {"kExpressionDepth", constants(limits::kExpressionDepth / 2),
        constants(limits::kExpressionDepth / 2 + 2), "E0316", ""},
+      {"kDerivativeOrder", derivatives(limits::kDerivativeOrder),
+       derivatives(limits::kDerivativeOrder + 1), "E0310", ""},
       {"kSlots", values(limits::kSlots / 2), values(limits::kSlots), "E0315", "", "too many"},
       {"kIfDepth", choices(limits::kIfDepth), choices(limits::kIfDepth + 3), "E0315", "", "If"},
       {"kMoves", wide_calls(limits::kMoves / 13000), wide_calls(limits::kMoves / 11900), "E0315",

@@ -146,6 +146,10 @@ class LibraryCall {
       if (real ? !in_scale(args[k].r[0].v, double(args.size()) * error(args[k])) : !args[k].sure)
         sure = false;
     }
+    // fmod(a, b) jumps wherever a / b is whole: with b, on the scale b^2 / a.
+    if (name_ == "fmod" && !(128 * error(args[1]) * std::fabs(at[0]) <= at[1] * at[1]) &&
+        error(args[1]) > 0)
+      sure = false;
     const std::vector<double> here = evaluate(at);
     std::vector<double> moved(here.size(), 0.0);
     for (std::size_t k = 0; sure && k < args.size(); ++k) {
