@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "materials/curve.h"
+
 namespace mms::api {
 namespace {
 
@@ -48,6 +50,7 @@ Entry load_module() {
 }  // namespace
 
 Result<std::shared_ptr<const vm::Image>> ImageLibrary::open(const vm::ImageUse& use) {
+  if (use.filter == vm::kCurveFilter) return materials::open_curve(use);
   if (!source_) {
     const Entry entry = load_module();
     if (!entry)

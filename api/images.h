@@ -2,7 +2,7 @@
 #pragma once
 
 /// \file
-/// Images for scripts, wherever they are linked. What reads files is a module of its own: it is
+/// Images and tables for scripts, wherever they are linked. What reads images is a module of its own: it is
 /// loaded when the first image is named, for loading OpenImageIO takes longer than linking a
 /// script.
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Images of the elaborator: a name becomes a number of the program's list, and the machine looks
-/// that up. What cannot be read is told once for each file, with every place that names it.
+/// Images and tables of the elaborator: a name becomes a number of the program's list, and the
+/// machine looks that up. What cannot be read is told once for each file, with every place that
+/// names it.
 
 #include <algorithm>
 #include <filesystem>
@@ -31,11 +32,14 @@ std::string words_of(const vm::ImageWord (&words)[N]) {
 
 /// Says what is wrong with the words of `use`; whether they are right.
 bool Elaborator::check_words(const vm::ImageUse& use) {
+  const bool curve = use.filter == vm::kCurveFilter;
   auto check = [&](const auto& words, const std::string& word, const char* what) {
     if (known_word(words, word)) return true;
-    diagnostics_.add(Diag::ImageWord, user_span_, word, what).help(words_of(words));
+    diagnostics_.add(Diag::ImageWord, user_span_, word, what, curve ? "tables" : "images")
+        .help(words_of(words));
     return false;
   };
+  if (curve) return check(vm::kCurveUnits, use.space, "unit");
   const bool filter = check(vm::kImageFilters, use.filter, "filter");
   const bool wrap = check(vm::kImageWraps, use.wrap, "wrap mode");
   const bool storage = check(vm::kImageStorages, use.storage, "storage");
@@ -64,7 +68,7 @@ Result<std::shared_ptr<const vm::Image>> Elaborator::open_image(vm::ImageUse& us
   }
   use.file = written;
   if (first.hint.empty())
-    first.hint = "images are looked for beside the script, then in each `-I` folder";
+    first.hint = "files are looked for beside the script, then in each `-I` folder";
   return first;
 }
 
@@ -103,11 +107,20 @@ std::optional<std::uint32_t> Elaborator::image_number(vm::ImageUse use) {
 /// `intrinsic::image(file, filter, wrap, space, channel, storage)`: an integer.
 Value Elaborator::image_handle(const std::vector<BoundArgument>& args) {
   const auto text = [&](std::size_t k) { return args[k].value.text; };
-  if (text(0).empty() && unknown_arguments_) return unknown_value(TypeTable::kInteger);
-  const vm::ImageUse use{text(0), text(1), text(2), text(3), text(4), text(5)};
+  return handle_of({text(0), text(1), text(2), text(3), text(4), text(5)});
+}
+
+Value Elaborator::handle_of(const vm::ImageUse& use) {
+  if (use.file.empty() && unknown_arguments_) return unknown_value(TypeTable::kInteger);
   if (!check_words(use)) return {};
   const auto number = image_number(use);
   return scalar(TypeTable::kInteger, integer(number ? std::int64_t(*number) : -1));
+}
+
+/// `intrinsic::curve(file, unit, column)`: an integer.
+Value Elaborator::curve_handle(const std::vector<BoundArgument>& args) {
+  const auto text = [&](std::size_t k) { return args[k].value.text; };
+  return handle_of({text(0), std::string(vm::kCurveFilter), "", text(1), text(2), ""});
 }
 
 /// `intrinsic::image_fact(handle, name, otherwise)`: a real that the file states.
@@ -140,8 +153,12 @@ void Elaborator::report_images() {
     const auto end = std::unique(places.begin(), places.end(), [&](const Span& a, const Span& b) {
       return order(a) == order(b);
     });
-    Diagnostic& d = diagnostics_.add(refused ? Diag::NoImage : Diag::ImageReplaced, places[0],
-                                     m->use.file, m->error.what);
+    const bool curve = m->use.filter == vm::kCurveFilter;
+    const char* const form = curve ? "table" : "image";
+    Diagnostic& d =
+        refused ? diagnostics_.add(Diag::NoImage, places[0], form, m->use.file, m->error.what)
+                : diagnostics_.add(Diag::ImageReplaced, places[0], form, m->use.file, m->error.what,
+                                   curve ? "1" : "magenta");
     for (auto place = places.begin() + 1; place != end; ++place) d.note(*place, "and here");
     if (!m->error.hint.empty()) d.help(m->error.hint);
   }

@@ -51,6 +51,7 @@ Value Elaborator::call_intrinsic(std::string_view name, const std::vector<BoundA
   if (name == "values") return values_of(args[0].value);
   if (name == "along_footprint") return along_footprint(args[0].value, args[1].value);
   if (name == "image") return image_handle(args);
+  if (name == "curve") return curve_handle(args);
   if (name == "image_fact") return image_fact(args);
   return at_each_wavelength(args[0].value, args[1].value);
 }

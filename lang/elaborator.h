@@ -277,6 +277,8 @@ class Elaborator {
   Result<std::shared_ptr<const vm::Image>> open_image(vm::ImageUse& use);
   std::optional<std::uint32_t> image_number(vm::ImageUse use);
   Value image_handle(const std::vector<BoundArgument>& args);
+  Value curve_handle(const std::vector<BoundArgument>& args);
+  Value handle_of(const vm::ImageUse& use);
   Value image_fact(const std::vector<BoundArgument>& args);
   void report_images();
 

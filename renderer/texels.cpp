@@ -222,26 +222,33 @@ bool texel_fact(const std::string& path, std::string_view name, double& value) {
   return true;
 }
 
+bool read_texels(const TexelFile& t, int level, TexelLevel& to) {
+  const auto file = open_file(t.path);
+  if (!file || !file->seek_subimage(0, level)) return false;
+  const OIIO::ImageSpec spec = file->spec();
+  const auto count = std::size_t(spec.image_pixels());
+  to.width = spec.width;
+  to.height = spec.height;
+  to.pixels.resize(count * std::size_t(spec.nchannels));
+  if (!file->read_image(0, level, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, to.pixels.data()))
+    return false;
+  make_linear(t.space, processor_of(t.space), to.pixels.data(), count, spec.nchannels);
+  return true;
+}
+
 void texel_range(const TexelFile& t, double& low, double& high) {
   low = 0;
   high = 1;
   if (t.bounded) return;
   low = std::numeric_limits<double>::infinity();
   high = -low;
-  const auto file = open_file(t.path);
-  const auto processor = processor_of(t.space);
-  for (int level = 0; file && file->seek_subimage(0, level); ++level) {
-    const OIIO::ImageSpec spec = file->spec();
-    std::vector<float> pixels(std::size_t(spec.image_pixels()) * std::size_t(spec.nchannels));
-    if (!file->read_image(0, level, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data())) break;
-    make_linear(t.space, processor, pixels.data(), std::size_t(spec.image_pixels()),
-                spec.nchannels);
-    for (const float v : pixels) {
+  TexelLevel texels;
+  for (int level = 0; read_texels(t, level, texels); ++level)
+    for (const float v : texels.pixels) {
       if (std::isnan(v)) continue;
       low = std::min(low, double(v));
       high = std::max(high, double(v));
     }
-  }
   if (low > high) {
     high = std::numeric_limits<double>::infinity();
     low = -high;
@@ -249,14 +256,10 @@ void texel_range(const TexelFile& t, double& low, double& high) {
 }
 
 Result<std::shared_ptr<const Packed>> pack_texels(const TexelFile& t) {
-  const auto file = open_file(t.path);
-  std::vector<float> pixels(std::size_t(t.width) * std::size_t(t.height) * std::size_t(t.channels));
-  if (!file || !file->read_image(0, 0, 0, t.channels, OIIO::TypeDesc::FLOAT, pixels.data()))
-    return Error{t.path, "cannot be read: " + one_line(file ? file->geterror() : OIIO::geterror()),
-                 ""};
-  make_linear(t.space, processor_of(t.space), pixels.data(),
-              std::size_t(t.width) * std::size_t(t.height), t.channels);
-  return std::make_shared<const Packed>(t.width, t.height, t.channels, pixels.data());
+  TexelLevel texels;
+  if (!read_texels(t, 0, texels))
+    return Error{t.path, "cannot be read: " + one_line(OIIO::geterror()), ""};
+  return std::make_shared<const Packed>(t.width, t.height, t.channels, texels.pixels.data());
 }
 
 std::string add_packed(void* cache, const TexelFile& t, const Packed& packed) {

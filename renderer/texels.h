@@ -32,6 +32,15 @@ Result<TexelFile> inspect_texels(const std::string& path, const std::string& spa
 /// A number that the file states under `name`.
 bool texel_fact(const std::string& path, std::string_view name, double& value);
 
+/// A level of a file, made linear: row by row from the top, all channels.
+struct TexelLevel {
+  int width = 0, height = 0;
+  std::vector<float> pixels;
+};
+
+/// Reads a level into `to`, the first one being 0; false where there is none.
+bool read_texels(const TexelFile& file, int level, TexelLevel& to);
+
 /// The least and the greatest number of all channels and levels, made linear.
 void texel_range(const TexelFile& file, double& low, double& high);
 

@@ -15,7 +15,9 @@
 #include <map>
 #include <mutex>
 
+#include "renderer/texel_bounds.h"
 #include "renderer/texels.h"
+#include "vm/interval.h"
 
 namespace mms::renderer {
 namespace {
@@ -131,6 +133,15 @@ class Texture final : public vm::Image {
     high = high_;
   }
 
+  void enclose(ImageAsk ask, const vm::Interval* in, vm::Interval* out) const override {
+    vm::Image::enclose(ask, in, out);
+    if (vm::is_slope(ask)) {
+      enclose_slopes(ask, out);
+    } else if (const auto near = enclosed_nearby(in)) {
+      std::fill_n(out, vm::result_count(ask), *near);
+    }
+  }
+
   std::vector<std::string> files() const override {
     std::vector<std::string> all;
     for (const auto& [place, tile] : tiles_) all.push_back(tile.file.path);
@@ -138,6 +149,84 @@ class Texture final : public vm::Image {
   }
 
  private:
+  /// Of each tile, read when they are first asked for.
+  const std::vector<TexelBounds>& bounds() const {
+    std::call_once(bounded_, [this] {
+      for (const auto& [place, tile] : tiles_) bounds_.emplace_back(tile.file);
+    });
+    return bounds_;
+  }
+
+  /// How much further apart two texels of a tile are than it says. Those that were packed may be
+  /// as far apart as any two; beside a black border there is 0.
+  double jump(const Tile& tile, const TexelBounds& b) const {
+    const double most = std::max(std::abs(b.low()), std::abs(b.high()));
+    const double black = options_.swrap == OIIO::TextureOpt::WrapBlack ? most : 0;
+    const double packed = tile.packed ? b.high() - b.low() + 2 * Packed::kRounding * most : 0;
+    return std::max(black, packed);
+  }
+
+  /// Means of texels are no steeper than these change, whatever the pixel.
+  void enclose_slopes(ImageAsk ask, vm::Interval* out) const {
+    constexpr double kSlack = 1 + 1e-5;  // for differences of floats
+    double u = 0, v = 0;
+    auto b = bounds().begin();
+    for (const auto& [place, tile] : tiles_) {
+      const double far = b->known() ? jump(tile, *b) : vm::Interval::kInf;
+      u = std::max({u, b->slope_u(), far * tile.file.width});
+      v = std::max({v, b->slope_v(), far * tile.file.height});
+      ++b;
+    }
+    if (options_.interpmode == OIIO::TextureOpt::InterpClosest) u = v = 0;
+    for (int k = 0; k < vm::result_count(ask); ++k) {
+      const double most = kSlack * (k % 2 ? v : u);
+      out[k] = {-most, most, false};
+    }
+  }
+
+  /// Which of `count` texels of an axis are looked at where x, in texels from the first one's
+  /// middle, is in a range: two to either side. All where they go round a border.
+  struct Stretch {
+    int first, last;
+    bool outside;
+  };
+  Stretch stretch(double lo, double hi, int count) const {
+    const double first = std::floor(lo) - 1, last = std::floor(hi) + 2;
+    const bool outside = first < 0 || last >= count;
+    if (!outside) return {int(first), int(last), false};
+    const double round = std::floor(first / count) * count;
+    if (options_.swrap == OIIO::TextureOpt::WrapPeriodic && last - round < count)
+      return {int(first - round), int(last - round), false};
+    if (options_.swrap != OIIO::TextureOpt::WrapClamp) return {0, count - 1, true};
+    const double most = count - 1;
+    return {int(std::clamp(first, 0.0, most)), int(std::clamp(last, 0.0, most)), true};
+  }
+
+  /// What colours can be over a box of places, where the pixel is a point and so texels near them
+  /// are all that is looked at; nothing where it is not.
+  std::optional<vm::Interval> enclosed_nearby(const vm::Interval* in) const {
+    for (int k = 2; k < vm::kImageArguments; ++k)
+      if (!(in[k] == vm::Interval::point(0))) return std::nullopt;
+    const TexelFile& file = tiles_.begin()->second.file;
+    constexpr double kMost = 0x1p20;  // beyond, floats miss the texel
+    for (int k = 0; k < 2; ++k)
+      if (in[k].nan || !(in[k].magnitude() * std::max(file.width, file.height) < kMost))
+        return std::nullopt;
+    if (tiled_ || !bounds()[0].known()) return std::nullopt;
+    const double w = file.width, h = file.height;
+    const Stretch x = stretch(in[0].lo * w - 0.5, in[0].hi * w - 0.5, file.width);
+    const Stretch y = stretch((1 - in[1].hi) * h - 0.5, (1 - in[1].lo) * h - 0.5, file.height);
+    vm::Interval r;
+    bounds()[0].within(x.first, x.last, y.first, y.last, r.lo, r.hi);
+    if (tiles_.begin()->second.packed) {
+      const double slack = Packed::kRounding * r.magnitude();
+      r = {r.lo - slack, r.hi + slack, false};
+    }
+    if (options_.swrap == OIIO::TextureOpt::WrapBlack && (x.outside || y.outside))
+      r = vm::join(r, vm::Interval::point(0));
+    return r;
+  }
+
   /// What all of it takes in memory: packed, or decoded.
   double bytes() const {
     double sum = 0;
@@ -211,6 +300,8 @@ class Texture final : public vm::Image {
   bool tiled_;
   int channel_;  ///< of a number; -1: luminance, or the only one
   OIIO::TextureOpt options_;
+  mutable std::once_flag bounded_;
+  mutable std::vector<TexelBounds> bounds_;
   mutable std::once_flag ranged_;
   mutable double low_ = 0, high_ = 0;
 };

@@ -19,9 +19,8 @@ Function fmod, floor, ceil, trunc, round, fract, abs, sign, min, max, clamp;
 Function abs_integer, sign_integer, min_integer, max_integer, clamp_integer;
 
 Function complex_exp, complex_log, complex_sqrt, complex_sin, complex_cos, complex_tan;
-Function complex_sinh, complex_cosh, complex_tanh, complex_pow, complex_powi, complex_abs;
+Function complex_sinh, complex_cosh, complex_tanh, complex_pow, complex_powi;
 Function complex_asin, complex_acos, complex_atan, complex_asinh, complex_acosh, complex_atanh;
-Function polar;
 
 Function perlin1, perlin2, perlin3, perlin4;
 Function perlin_gradient1, perlin_gradient2, perlin_gradient3, perlin_gradient4;
@@ -33,8 +32,10 @@ Function valuenoise_gradient_of1, valuenoise_gradient_of2, valuenoise_gradient_o
     valuenoise_gradient_of4;
 Function simplex1, simplex2, simplex3, simplex4;
 Function simplex_of1, simplex_of2, simplex_of3, simplex_of4;
+Function simplex_gradient_of1, simplex_gradient_of2, simplex_gradient_of3, simplex_gradient_of4;
 Function perlin_derivative1, perlin_derivative2, perlin_derivative3, perlin_derivative4;
 Function hash1, hash2, hash3, hash4, cells1, cells2, cells3, cells4;
+Function cells_of1, cells_of2, cells_of3, cells_of4;
 Function worley_ways1, worley_ways2, worley_ways3, worley_ways4;
 Function worley_border1, worley_border2, worley_border3, worley_border4;
 Function worley2, worley3, worley_pair2, worley_pair3;

@@ -26,6 +26,18 @@ void cells(const Interval* in, Interval* out, Value value) {
     out[0] = r;
 }
 
+/// Cell noise of a seed and periods, where those are certain.
+template <int N, std::size_t... K>
+void cells_of(const Interval* in, Interval* out, std::index_sequence<K...>) {
+  using Calls = lattice_cells::CellCalls<double, std::index_sequence<K...>>;
+  out[0].nan = false;
+  for (int k = N; k <= 2 * N; ++k)
+    if (!in[k].is_point()) return;
+  const auto seed = static_cast<std::int32_t>(in[N].lo);
+  cells<N>(in, out,
+           [&](const double(&x)[N]) { return Calls::cell(x[K]..., seed, in[N + 1 + K].lo...); });
+}
+
 /// White noise is known at points only.
 template <int N, class Value>
 void hash(const Interval* in, Interval* out, Value value) {
@@ -97,6 +109,14 @@ void cells4(const Interval* in, Interval* out) {
   cells<4>(in, out, MMS_AT(4, Cells4, x[0], x[1], x[2], x[3]));
 }
 #undef MMS_AT
+template <int N>
+void cells_of(const Interval* in, Interval* out) {
+  cells_of<N>(in, out, std::make_index_sequence<N>());
+}
+void cells_of1(const Interval* in, Interval* out) { cells_of<1>(in, out); }
+void cells_of2(const Interval* in, Interval* out) { cells_of<2>(in, out); }
+void cells_of3(const Interval* in, Interval* out) { cells_of<3>(in, out); }
+void cells_of4(const Interval* in, Interval* out) { cells_of<4>(in, out); }
 
 void worley_ways1(const Interval* in, Interval* out) { worley_found<1>(in, out, 3); }
 void worley_ways2(const Interval* in, Interval* out) { worley_found<2>(in, out, 3); }

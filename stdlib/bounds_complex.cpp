@@ -270,10 +270,4 @@ void complex_powi(const Interval* in, Interval* out) {
   out[1] = wider(im, slack + modulus * (most + 8) * 0x1p-50);
 }
 
-void complex_abs(const Interval* in, Interval* out) { out[0] = length(in[0], in[1]); }
-void polar(const Interval* in, Interval* out) {
-  polar_of(in[0], in[1], out);
-  with_infinities(in, out);
-}
-
 }  // namespace mms::stdlib::bounds

@@ -2,7 +2,8 @@
 // Enclosures of noise. Over a box in few cells, gradient and value noise are enclosed cell by cell:
 // once by the interpolation of their corners over intervals, once by the value at the centre and
 // the gradient over the box (the mean value theorem), whichever is narrower at either end. Simplex
-// noise is enclosed by its value at the centre and its steepest slope.
+// noise is enclosed by its value and gradient at the centre and its strongest bend, or by its
+// steepest slope.
 #include "stdlib/bounds.h"
 #include "stdlib/bounds_lattice.h"
 
@@ -149,18 +150,43 @@ void interpolated_gradient(const Interval* in, Interval* out, const Where& where
     out[k] = {r[k].lo * scale - kGradientError, r[k].hi * scale + kGradientError, out[k].nan};
 }
 
-template <int N, class Where>
-void simplex(const Interval* in, Interval* out, const Where& where) {
-  double centre[N], radius2 = 0;
+/// The middle of a box, and how far its corners are from it; false beyond the lattice.
+template <int N>
+bool middle(const Interval* in, double (&centre)[N], double& radius) {
+  double radius2 = 0;
   for (int k = 0; k < N; ++k) {
-    if (!(in[k].magnitude() < 0x1p28)) return;
+    if (!(in[k].magnitude() < 0x1p28)) return false;
     centre[k] = 0.5 * (in[k].lo + in[k].hi);
     const double half = 0.5 * (in[k].hi - in[k].lo);
     radius2 += half * half;
   }
-  const double value = lattice_noise::Simplex::jet(centre, where).value;
-  const double most = lattice_noise::kSimplexSlope<N> * std::sqrt(radius2) + kValueError;
-  out[0] = {value - most, value + most, out[0].nan};
+  radius = std::sqrt(radius2);
+  return true;
+}
+template <int N>
+double bend() {
+  return lattice_noise::simplex_bend<N>(std::sqrt(lattice_noise::kReach2<double, N>));
+}
+
+/// Two bounds of what it is away from the middle: the steepest slope there is, and the slope in the
+/// middle with the strongest bend there is.
+template <int N, class Where>
+void simplex(const Interval* in, Interval* out, const Where& where) {
+  double centre[N], radius;
+  if (!middle(in, centre, radius)) return;
+  const auto jet = lattice_noise::Simplex::jet(centre, where);
+  double near = 0.5 * bend<N>() * radius * radius;
+  for (int k = 0; k < N; ++k) near += std::fabs(jet.gradient[k]) * 0.5 * (in[k].hi - in[k].lo);
+  const double most = std::min(near, lattice_noise::kSimplexSlope<N> * radius) + kValueError;
+  out[0] = {jet.value - most, jet.value + most, out[0].nan};
+}
+template <int N, class Where>
+void simplex_gradient(const Interval* in, Interval* out, const Where& where) {
+  double centre[N], radius;
+  if (!middle(in, centre, radius)) return;
+  const auto jet = lattice_noise::Simplex::jet(centre, where);
+  const double most = bend<N>() * radius + kGradientError;
+  for (int k = 0; k < N; ++k) out[k] = {jet.gradient[k] - most, jet.gradient[k] + most, out[k].nan};
 }
 
 /// Only an infinite coordinate makes noise a NaN.
@@ -200,6 +226,13 @@ void simplex_of(const Interval* in, Interval* out) {
   set_nan<N>(in, out, 1);
   with_tiles<N>(in, lattice_noise::Simplex::kStep<N>,
                 [&](const auto& where) { simplex<N>(in, out, where); });
+}
+
+template <int N>
+void simplex_gradient_of(const Interval* in, Interval* out) {
+  set_nan<N>(in, out, N);
+  with_tiles<N>(in, lattice_noise::Simplex::kStep<N>,
+                [&](const auto& where) { simplex_gradient<N>(in, out, where); });
 }
 
 /// The largest magnitudes of a weight's derivatives, the weight's own first; 0 from the sixth on.
@@ -278,6 +311,10 @@ void simplex_of1(const Interval* in, Interval* out) { simplex_of<1>(in, out); }
 void simplex_of2(const Interval* in, Interval* out) { simplex_of<2>(in, out); }
 void simplex_of3(const Interval* in, Interval* out) { simplex_of<3>(in, out); }
 void simplex_of4(const Interval* in, Interval* out) { simplex_of<4>(in, out); }
+void simplex_gradient_of1(const Interval* in, Interval* out) { simplex_gradient_of<1>(in, out); }
+void simplex_gradient_of2(const Interval* in, Interval* out) { simplex_gradient_of<2>(in, out); }
+void simplex_gradient_of3(const Interval* in, Interval* out) { simplex_gradient_of<3>(in, out); }
+void simplex_gradient_of4(const Interval* in, Interval* out) { simplex_gradient_of<4>(in, out); }
 
 void perlin_derivative1(const Interval* in, Interval* out) { perlin_derivative<1>(in, out); }
 void perlin_derivative2(const Interval* in, Interval* out) { perlin_derivative<2>(in, out); }

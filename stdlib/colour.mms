@@ -105,3 +105,35 @@ real[3] strengthen(real[3] c, real amount)
     end;
     most = min(room(away.x), min(room(away.y), room(away.z)));
     return map(#saturate, grey + min(amount, most) * away);
+
+/// A reflectance in [0, 1], its distance from `grey` times `amount`, at least 0, and cut off at 0 and 1.
+/// >>> strengthen(0.5 + 0 * $wavelength, 2.0, 0.4)
+/// 0.6
+spectrum strengthen(spectrum s, real amount, grey) =
+    clamp(grey + max(amount, 0.0) * (s - grey), 0.0, 1.0);
+
+/// The same, away from the luminance of the reflectance as far as the wavelengths of the path tell; see
+/// `luminance`. `strengthen` of a function knows it whole.
+/// >>> strengthen(0.25 + 0 * $wavelength, 2.0)
+/// 0.25
+spectrum strengthen(spectrum s, real amount) = strengthen(s, amount, luminance(s));
+
+/// The same of a reflectance that is a function of the wavelength in metres, away from its luminance.
+/// >>> strengthen(function(l) -> measured("file.csv", l), 1.5)
+spectrum strengthen(function(real) -> real f, real amount) =
+    strengthen(spectral(f), amount, xyz_of(f)[1]);
+
+/// The wavelength that many turns further along the circle of hues, towards blue: the light from 400 to
+/// 700 nm, closed by purple. In metres.
+/// >>> turned_wavelength(650nm, -1 / 3) / 1nm
+/// 450
+real turned_wavelength(real wavelength, turns) =
+    400nm + 300nm * fract((wavelength - 400nm) / 300nm + turns);
+
+/// A reflectance that is a function of the wavelength in metres, its hue turned on, in turns as those
+/// of `hsv`: the curve slides along the circle of `turned_wavelength`. Stays in [0, 1] if the curve does; it
+/// may jump at 400 and 700 nm. The hue of a band 40 nm wide comes out within a tenth of a turn.
+/// >>> turn_hue(function(l) -> 0.25, 1 / 3)
+/// 0.25
+spectrum turn_hue(function(real) -> real f, real turns) =
+    spectral(function(l) -> f(turned_wavelength(l, turns)));

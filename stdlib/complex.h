@@ -282,26 +282,4 @@ struct ComplexPowI {
   }
 };
 
-template <class R>
-struct ComplexAbs {
-  [[gnu::always_inline]] static R eval(R re, R im) {
-    if constexpr (kDouble<R>) return __builtin_hypot(re, im);
-    const double x = magnitude(re), y = magnitude(im);
-    const bool infinite = (x == kInf<double>) | (y == kInf<double>);
-    return R(infinite ? kInf<double> : root(x * x + y * y));
-  }
-};
-template <class R>
-struct Polar {
-  template <class Reduction>
-  [[gnu::always_inline]] static std::array<R, 2> body(R r, R phi) {
-    if constexpr (kDouble<R>) return {r * __builtin_cos(phi), r * __builtin_sin(phi)};
-    const SinCos a = signed_sin_cos<Reduction>(phi);
-    return {R(r * a.cos), R(r * a.sin)};
-  }
-  [[gnu::always_inline]] static std::array<R, 2> eval(R r, R phi) { return body<Usual>(r, phi); }
-  [[gnu::always_inline]] static bool rare(R, R phi) { return needs_large(phi); }
-  static std::array<R, 2> eval_rare(R r, R phi) { return body<Large>(r, phi); }
-};
-
 }  // namespace mms::stdlib::MMS_ISA

@@ -21,6 +21,16 @@ complex conj(complex z) = complex(z.re, -z.im);
 /// 45
 real arg(complex z) = atan2(z.im, z.re);
 
+/// Modulus, without overflow; infinite where either part is.
+/// >>> abs(3 + 4i)
+/// 5
+real abs(complex z) = hypot(z.re, z.im);
+
+/// r (cos phi + i sin phi), phi in radians.
+/// >>> polar(2, 0)
+/// 2
+complex polar(real r, phi) = complex(r * cos(phi), r * sin(phi));
+
 /// a / b, which the operator `/` calls: Smith's division, so that nothing overflows on the way that
 /// does not in the end.
 /// >>> complex_divide(1 + 2i, 3 + 4i)

@@ -165,23 +165,6 @@ inline constexpr vm::Builtin kComplexRows[] = {
                               .max_ulp = 0.51,
                               .cost = 400,
                               .bounds = {vm::BoundsForm::Parts, bounds::complex_powi}}),
-    vm::builtin<ComplexAbs>({.signature = "real abs(complex z)",
-                             .module = "math",
-                             .doc = "Modulus, without overflow; infinite where either part is.",
-                             .example = "abs(3 + 4i)",
-                             .derivative = "[z.re, z.im] / abs(z)",
-                             .max_ulp = 0.51,
-                             .cost = 15,
-                             .bounds = {vm::BoundsForm::Exact, bounds::complex_abs}}),
-    vm::builtin<Polar>(
-        {.signature = "complex polar(real r, phi)",
-         .module = "math",
-         .doc = "r (cos phi + i sin phi), phi in radians.",
-         .example = "polar(2.0, 0.5)",
-         .derivative = "complex(cos(phi), sin(phi)); complex(-r * sin(phi), r * cos(phi))",
-         .max_ulp = 0.51,
-         .cost = 40,
-         .bounds = {vm::BoundsForm::Parts, bounds::polar}}),
 };
 
 }  // namespace mms::stdlib::MMS_ISA

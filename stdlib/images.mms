@@ -2,8 +2,9 @@
 // Images from files. `at` is [u, v]: [0, 0] is the lower left corner of the picture, [1, 1] the upper
 // right one. Names, and the words for filter, wrap, space, channel and storage, are known at link.
 // What the pixel covers is filtered away, exactly as `$footprint` says, `width` times as wide
-// (0: not at all) and wider by `blur`, a part of the picture. `storage` is how it is kept in memory: `raw`,
-// or `compressed`, which is smaller, slower and not exact.
+// (0: not at all) and wider by `blur`, a part of the picture: as much along both axes, or [along u,
+// along v]. `storage` is how it is kept in memory: `raw`, or `compressed`, which is smaller, slower and
+// not exact.
 
 /// How `at` changes across the pixel along its x axis (column 0) or its y axis.
 /// >>> image_step([0.5, 0.5], 0, 0)
@@ -18,15 +19,27 @@ end;
 /// >>> image("file.png", [0.5, 0.5])
 spectrum image(string file, real[2] at, string filter = "smart", real width = 1.0, real blur = 0.0,
     string wrap = "repeat", string space = "auto", string storage = "raw") =
-    rgb(image_rgb(file, at, filter, width, blur, wrap, space, storage));
+    rgb(image_rgb(file, at, [blur, blur], filter, width, wrap, space, storage));
+
+/// The same with a blur for each axis.
+/// >>> image("file.png", [0.5, 0.5], blur = [0.1, 0.0])
+spectrum image(string file, real[2] at, blur, string filter = "smart", real width = 1.0,
+    string wrap = "repeat", string space = "auto", string storage = "raw") =
+    rgb(image_rgb(file, at, blur, filter, width, wrap, space, storage));
 
 /// The colour of an image as [red, green, blue], linear: for lights, and to reckon with.
 /// >>> image_rgb("file.exr", [0.5, 0.5])
 real[3] image_rgb(string file, real[2] at, string filter = "smart", real width = 1.0,
     real blur = 0.0,
     string wrap = "repeat", string space = "auto", string storage = "raw") =
+    image_rgb(file, at, [blur, blur], filter, width, wrap, space, storage);
+
+/// The same with a blur for each axis.
+/// >>> image_rgb("file.exr", [0.5, 0.5], blur = [0.0, 0.1])
+real[3] image_rgb(string file, real[2] at, blur, string filter = "smart", real width = 1.0,
+    string wrap = "repeat", string space = "auto", string storage = "raw") =
     image_colour(intrinsic::image(file, filter, wrap, space, "", storage), at,
-        image_step(at, 0, width), image_step(at, 1, width), [blur, blur]);
+        image_step(at, 0, width), image_step(at, 1, width), blur);
 
 /// A number of an image: of the channel with that name or place from 0, or else the luminance. The
 /// numbers are the file's own unless `space` says otherwise.
@@ -34,8 +47,14 @@ real[3] image_rgb(string file, real[2] at, string filter = "smart", real width =
 real image_value(string file, real[2] at, string channel = "", string filter = "smart",
     real width = 1.0, real blur = 0.0, string wrap = "repeat", string space = "linear",
     string storage = "raw") =
+    image_value(file, at, [blur, blur], channel, filter, width, wrap, space, storage);
+
+/// The same with a blur for each axis.
+/// >>> image_value("file.png", [0.5, 0.5], blur = [0.1, 0.2])
+real image_value(string file, real[2] at, blur, string channel = "", string filter = "smart",
+    real width = 1.0, string wrap = "repeat", string space = "linear", string storage = "raw") =
     image_number(intrinsic::image(file, filter, wrap, space, channel, storage), at,
-        image_step(at, 0, width), image_step(at, 1, width), [blur, blur]);
+        image_step(at, 0, width), image_step(at, 1, width), blur);
 
 /// A number that the file states: `width`, `height`, `channels`, or one of its metadata by name;
 /// `fallback` where it states none.

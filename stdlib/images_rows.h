@@ -2,8 +2,8 @@
 #pragma once
 
 /// \file
-/// The rows that look pictures up. `image`, `image_rgb` and `image_value` of stdlib/images.mms make
-/// their handles.
+/// The rows that look pictures and tables of files up. `image`, `image_rgb` and `image_value` of
+/// stdlib/images.mms make their handles, and `measured` of stdlib/spectra.mms.
 
 #include "vm/images.h"
 
@@ -47,6 +47,26 @@ inline constexpr vm::Builtin kImageRows[] = {
          .example = "image_colour_slope(-1, [0.5, 0.5], [0, 0], [0, 0], [0, 0])",
          .derivative = "0; 0; 0; 0; 0",
          .cost = 400,
+         .bounds = {.form = vm::BoundsForm::Range}}),
+    vm::image_builtin<vm::ImageAsk::Curve>(
+        {.signature = "real curve_value(integer curve, real wavelength)",
+         .module = "spectra",
+         .doc = "What `measured` looks up: the curve is one of `intrinsic::curve`, the wavelength "
+                "in metres. Linear between rows, level outside; a curve that is not there is 1.",
+         .example = "curve_value(-1, 550nm)",
+         .derivative = "0; curve_slope(curve, wavelength)",
+         .max_ulp = 0.51,
+         .cost = 50,
+         .bounds = {.form = vm::BoundsForm::Range}}),
+    vm::image_builtin<vm::ImageAsk::CurveSlope>(
+        {.signature = "real curve_slope(integer curve, real wavelength)",
+         .module = "spectra",
+         .doc = "Change of `curve_value` for each metre of wavelength: constant between the rows "
+                "of the table, 0 outside.",
+         .example = "curve_slope(-1, 550nm)",
+         .derivative = "0; 0",
+         .max_ulp = 0.51,
+         .cost = 50,
          .bounds = {.form = vm::BoundsForm::Range}}),
 };
 

@@ -71,7 +71,8 @@ namespace mms::stdlib::MMS_ISA {
 #define MMS_SIMPLEX(N, steps, plain, price)                                                     \
   MMS_PLAIN_ROW(Simplex, "simplex", N, MMS_ABOUT_SIMPLEX, plain, bounds::simplex##N),           \
       MMS_SEEDED_ROWS(Simplex, "simplex", N, MMS_ABOUT_SIMPLEX, steps, kSimplexSlope<N>, price, \
-                      45, bounds::simplex_of##N, vm::BoundsForm::Range, nullptr)
+                      45, bounds::simplex_of##N, vm::BoundsForm::Lipschitz,                     \
+                      bounds::simplex_gradient_of##N)
 #define MMS_ABOUT_SIMPLEX                                                                 \
   "Simplex noise: rounder than `perlin`, and cheaper in 4 dimensions; smooth (its third " \
   "derivative is continuous), in [-1, 1]."
@@ -103,7 +104,7 @@ struct CellRow {
            .example = "cellnoise" MMS_EXAMPLE_OF##N ")",                                           \
            .derivative = MMS_ZEROS##N "; 0; " MMS_ZEROS##N,                                        \
            .cost = 5 + 12 * N,                                                                     \
-           .bounds = {vm::BoundsForm::Range, nullptr, 0, 1}})
+           .bounds = {vm::BoundsForm::Exact, bounds::cells_of##N, 0, 1}})
 
 inline constexpr vm::Builtin kSeededRows[] = {MMS_PERLIN(1, 43),
                                               MMS_PERLIN(2, 87),

@@ -40,6 +40,13 @@ inline constexpr double kSimplexSlope = N == 1   ? 8.1
                                         : N == 3 ? 34.7
                                                  : 44.5;
 
+/// No second derivative along any direction is larger: of a vertex' part it is at most |g| (48 m^2
+/// d^3 + 24 m^3 d), which is below 8.45 |g| reach^7, at d = 0.51 reach; `root_of_reach2` is reach.
+template <int N>
+constexpr double simplex_bend(double root_of_reach2) {
+  return kSimplexSlope<N> * (8.45 / 1.2596) / root_of_reach2;
+}
+
 /// The simplex that holds a point.
 template <class R, int N>
 struct SimplexCell {

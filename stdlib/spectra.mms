@@ -142,8 +142,7 @@ spectrum spectral(function(real) -> real f, spectrum s) = intrinsic::spectral(f,
 spectrum triangular_band(real centre, width) = max(1.0 - abs($wavelength - centre) / width, 0.0);
 
 /// A table of measured values: `values[k]` at the wavelength `wavelengths[k]`, in metres and growing;
-/// straight between, level outside; n at least 2. A table may stand in a file of its own, as constants
-/// of a script that is imported.
+/// straight between, level outside; n at least 2. `measured` reads one from a file.
 /// >>> tabulated([400nm, 700nm], [0.5, 0.5])
 /// 0.5
 spectrum tabulated(real[n] wavelengths, values)
@@ -152,3 +151,16 @@ spectrum tabulated(real[n] wavelengths, values)
         return clamp(($wavelength - wavelengths[k]) / width, 0.0, 1.0);
     return fold(#+, spectrum(values[0]), array(n - 1, function(k) ->
         (values[k + 1] - values[k]) * passed(k)));
+
+/// A table of a text file at a wavelength in metres: `emission = measured("lamp.csv", $wavelength)`. A row
+/// a line, the wavelength first, separated by blanks, commas, semicolons or tabs; `#` begins a remark,
+/// a line of words names the columns. `unit` is that of the wavelengths: `nm`, `um`, `m`. `column` is a
+/// name or a place, the wavelengths being 0; left out, it is 1. Straight between, level outside.
+/// >>> measured("file.csv", 550nm, unit = "um", column = "k")
+real measured(string file, real wavelength, string unit = "nm", column = "") =
+    curve_value(intrinsic::curve(file, unit, column), wavelength);
+
+/// `measured` at each wavelength of a spectrum.
+/// >>> conductor(measured("gold.csv", $wavelength, "um", "n"), measured("gold.csv", $wavelength, "um", "k"))
+spectrum measured(string file, spectrum wavelength, string unit = "nm", column = "") =
+    spectral(function(l) -> measured(file, l, unit, column), wavelength);

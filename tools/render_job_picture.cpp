@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -54,10 +55,27 @@ Exit scene_exit(const std::string& name) {
   return name.ends_with(".json") || name.find('/') != std::string::npos ? Exit::File : Exit::Usage;
 }
 
-/// A number for the linked program, the same wherever its files are.
+/// A number for what a file holds; 0 where it cannot be read.
+std::uint64_t content_hash(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::vector<char> piece(1 << 20);
+  std::uint64_t hash = 0;
+  while (in.read(piece.data(), std::streamsize(piece.size())), in.gcount() > 0)
+    hash = hash_bytes({piece.data(), std::size_t(in.gcount())}, hash);
+  return hash;
+}
+
+/// A number for the linked program and what its images and tables hold, the same wherever its
+/// files are.
 std::uint64_t script_hash(const vm::Program& program) {
   vm::Package package{program, {}, {}};
   for (std::string& name : package.program.sources) name.clear();
+  for (vm::ProgramImage& image : package.program.images) {
+    std::uint64_t held = 0;
+    for (const std::string& file : image.image ? image.image->files() : std::vector<std::string>())
+      held = hash_combine(held, content_hash(file));
+    image.use.file = fmt::format("{:x}", held);
+  }
   const std::vector<std::byte> bytes = vm::save(package, api::standard_library().builtins);
   return hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }

@@ -171,20 +171,18 @@ struct BoundsMachine::State : ValueTable {
     for (const Index n : args) in.push_back(value(n));
     out.resize(results.size());
     enclose_row(row, results, in, out);
-    if (row.image32 && results.size() % 2 == 1) enclose_image();  // slopes come in pairs
+    if (row.image32) enclose_image(row.image_ask);
     for (const Interval& r : out) p.stack.push_back(make(r, i.op));
   }
 
   /// What the picture that `in` names can give, in `out`.
-  void enclose_image() {
+  void enclose_image(ImageAsk ask) {
     constexpr double kRounding = 4;  // ulps of weighing texels
-    const double number = in[0].lo;
     if (!in[0].is_point()) return;
-    const bool there = number >= 0 && number < double(program.images.size());
-    const Image* image = there ? program.images[std::size_t(number)].image.get() : nullptr;
-    double low, high;
-    (image ? *image : *magenta()).range(low, high);
-    out.assign(out.size(), reals_within(std::min(low, 0.0), std::max(high, 0.0), kRounding));
+    std::vector<const Image*> images;
+    for (const ProgramImage& i : program.images) images.push_back(i.image.get());
+    image_of(ask, images.data(), int(images.size()), in[0].lo).enclose(ask, &in[1], out.data());
+    for (Interval& r : out) r = reals_within(r.lo, r.hi, kRounding, r.nan);
   }
 
   // Calls

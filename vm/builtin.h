@@ -24,7 +24,8 @@ namespace mms::vm {
 /// logic cells are std::int32_t in either machine.
 using Kernel = void (*)(const void* const* in, void* const* out, int lanes);
 
-class Image;  // vm/images.h
+class Image;                         // vm/images.h
+enum class ImageAsk : std::uint8_t;  // the same
 
 /// The same for rows that look pictures up: these are the ones of the program, by number.
 using ImageKernel = void (*)(const Image* const* images, int count, const void* const* in,
@@ -85,6 +86,7 @@ struct Builtin {
   Kernel f32 = nullptr, f64 = nullptr;
   /// Of a row that looks pictures up; `f32` and `f64` are then what it gives where there are none.
   ImageKernel image32 = nullptr, image64 = nullptr;
+  ImageAsk image_ask = {};
   /// An instruction that does just what the kernels do, without the cost of a call.
   LoweredOp instruction = LoweredOp::CallBuiltin;
   /// For results of type `material`: which scattering model or combiner (materials/table.h). Such

@@ -3,15 +3,16 @@
 
 #include <algorithm>
 
+#include "vm/interval.h"
+
 namespace mms::vm {
 namespace {
 
 class Magenta : public Image {
  public:
   void look_up(ImageAsk ask, const float* const*, float* const* out, int lanes) const override {
-    const bool slope = ask == ImageAsk::NumberSlope || ask == ImageAsk::ColourSlope;
     for (int k = 0; k < result_count(ask); ++k)
-      std::fill_n(out[k], lanes, slope || k == 1 ? 0.0f : 1.0f);
+      std::fill_n(out[k], lanes, is_slope(ask) || k == 1 ? 0.0f : 1.0f);
   }
   std::optional<double> number(std::string_view name) const override {
     if (name == "width" || name == "height") return 1;
@@ -22,44 +23,56 @@ class Magenta : public Image {
     high = 1;
   }
   std::vector<std::string> files() const override { return {}; }
+  bool answers(ImageAsk) const override { return true; }
+  void enclose(ImageAsk ask, const Interval*, Interval* out) const override {
+    for (int k = 0; k < result_count(ask); ++k)
+      out[k] = Interval::point(is_slope(ask) || k == 1 ? 0 : 1);
+  }
 };
 
-/// Lanes of one picture, `at` on.
-void look_up_run(const Image& image, ImageAsk ask, const void* const* in, void* const* out, int at,
-                 int lanes, float) {
-  const float* from[kImageArguments];
-  float* to[result_count(ImageAsk::ColourSlope)];
-  for (int k = 0; k < kImageArguments; ++k) from[k] = static_cast<const float*>(in[1 + k]) + at;
-  for (int k = 0; k < result_count(ask); ++k) to[k] = static_cast<float*>(out[k]) + at;
-  image.look_up(ask, from, to, lanes);
+void look_up_run(const Image& image, ImageAsk ask, const float* const* in, float* const* out,
+                 int lanes) {
+  image.look_up(ask, in, out, lanes);
 }
-
-/// Pictures are made of floats: so is what the double machine is told of them.
-void look_up_run(const Image& image, ImageAsk ask, const void* const* in, void* const* out, int at,
-                 int lanes, double) {
-  constexpr int kChunk = 64, kMost = result_count(ImageAsk::ColourSlope);
-  float arguments[kImageArguments][kChunk], results[kMost][kChunk];
-  for (int first = at; first < at + lanes; first += kChunk) {
-    const int n = std::min(kChunk, at + lanes - first);
-    const float* from[kImageArguments];
-    float* to[kMost];
-    for (int k = 0; k < kImageArguments; ++k) {
-      const double* values = static_cast<const double*>(in[1 + k]) + first;
-      for (int i = 0; i < n; ++i) arguments[k][i] = static_cast<float>(values[i]);
-      from[k] = arguments[k];
-    }
-    for (int k = 0; k < kMost; ++k) to[k] = results[k];
-    image.look_up(ask, from, to, n);
-    for (int k = 0; k < result_count(ask); ++k)
-      std::copy_n(results[k], n, static_cast<double*>(out[k]) + first);
-  }
+void look_up_run(const Image& image, ImageAsk ask, const double* const* in, double* const* out,
+                 int lanes) {
+  image.look_up64(ask, in, out, lanes);
 }
 
 }  // namespace
 
+/// Pictures are made of floats: so is what the double machine is told of them.
+void Image::look_up64(ImageAsk ask, const double* const* in, double* const* out, int lanes) const {
+  constexpr int kChunk = 64, kMost = result_count(ImageAsk::ColourSlope);
+  float arguments[kImageArguments][kChunk], results[kMost][kChunk];
+  const float* from[kImageArguments];
+  float* to[kMost];
+  for (int k = 0; k < kImageArguments; ++k) from[k] = arguments[k];
+  for (int k = 0; k < kMost; ++k) to[k] = results[k];
+  for (int first = 0; first < lanes; first += kChunk) {
+    const int n = std::min(kChunk, lanes - first);
+    for (int k = 0; k < argument_count(ask); ++k)
+      for (int i = 0; i < n; ++i) arguments[k][i] = static_cast<float>(in[k][first + i]);
+    look_up(ask, from, to, n);
+    for (int k = 0; k < result_count(ask); ++k) std::copy_n(results[k], n, out[k] + first);
+  }
+}
+
+void Image::enclose(ImageAsk ask, const Interval*, Interval* out) const {
+  double low = -Interval::kInf, high = Interval::kInf;
+  if (!is_slope(ask)) range(low, high);
+  std::fill_n(out, result_count(ask), Interval{std::min(low, 0.0), std::max(high, 0.0), false});
+}
+
 std::shared_ptr<const Image> magenta() {
   static const auto image = std::make_shared<const Magenta>();
   return image;
+}
+
+const Image& image_of(ImageAsk ask, const Image* const* images, int count, double number) {
+  const bool there = number >= 0 && number < count;
+  const Image* const image = there ? images[static_cast<int>(number)] : nullptr;
+  return image && image->answers(ask) ? *image : *magenta();
 }
 
 template <class R>
@@ -69,8 +82,12 @@ void look_up(ImageAsk ask, const Image* const* images, int count, const void* co
   for (int first = 0, end; first < lanes; first = end) {
     const std::int32_t handle = handles[first];
     for (end = first + 1; end < lanes && handles[end] == handle;) ++end;
-    const bool there = handle >= 0 && handle < count && images[handle];
-    look_up_run(there ? *images[handle] : *magenta(), ask, in, out, first, end - first, R());
+    const R* from[kImageArguments];
+    R* to[result_count(ImageAsk::ColourSlope)];
+    for (int k = 0; k < argument_count(ask); ++k)
+      from[k] = static_cast<const R*>(in[1 + k]) + first;
+    for (int k = 0; k < result_count(ask); ++k) to[k] = static_cast<R*>(out[k]) + first;
+    look_up_run(image_of(ask, images, count, handle), ask, from, to, end - first);
   }
 }
 

@@ -50,17 +50,32 @@ inline constexpr ImageWord kImageStorages[] = {
     {"compressed", "all of it in memory, in blocks of 4 x 4: smaller, slower, and not exact"},
 };
 
-/// What a row wants of a picture.
-enum class ImageAsk : std::uint8_t { Number, NumberSlope, Colour, ColourSlope };
+/// In the place of a filter: a table of numbers over the wavelength, not a picture. `space` is then
+/// the unit of its wavelengths, `channel` the column.
+inline constexpr std::string_view kCurveFilter = "table";
+inline constexpr ImageWord kCurveUnits[] = {
+    {"nm", "nanometres"}, {"um", "micrometres"}, {"m", "metres"}};
+
+/// What a row wants of a picture or a curve.
+enum class ImageAsk : std::uint8_t { Number, NumberSlope, Colour, ColourSlope, Curve, CurveSlope };
 constexpr int result_count(ImageAsk ask) {
-  constexpr int kCounts[] = {1, 2, 3, 6};
+  constexpr int kCounts[] = {1, 2, 3, 6, 1, 1};
   return kCounts[static_cast<int>(ask)];
 }
-/// Reals that say where: the point, its change across the pixel's x and y axis, and the blur, each
-/// u and v. (0, 0) is the lower left corner of the picture, (1, 1) the upper right one.
+/// Whether the results are slopes: 0 of what is not there.
+constexpr bool is_slope(ImageAsk ask) {
+  return ask == ImageAsk::NumberSlope || ask == ImageAsk::ColourSlope ||
+         ask == ImageAsk::CurveSlope;
+}
+/// Reals that say where: of a picture the point, its change across the pixel's x and y axis, and
+/// the blur, each u and v. (0, 0) is the lower left corner of the picture, (1, 1) the upper right
+/// one. Of a curve the wavelength in metres.
 inline constexpr int kImageArguments = 8;
+constexpr int argument_count(ImageAsk ask) {
+  return ask == ImageAsk::Curve || ask == ImageAsk::CurveSlope ? 1 : kImageArguments;
+}
 
-/// An open picture. Immutable; any number of threads may ask.
+/// An open picture or curve. Immutable; any number of threads may ask.
 class Image {
  public:
   virtual ~Image() = default;
@@ -68,11 +83,19 @@ class Image {
   /// Where an argument is not finite the results are 0.
   virtual void look_up(ImageAsk ask, const float* const* in, float* const* out,
                        int lanes) const = 0;
+  /// The same for the double machine; here in float.
+  virtual void look_up64(ImageAsk ask, const double* const* in, double* const* out,
+                         int lanes) const;
   /// `width`, `height`, `channels`, `bytes` in memory, or a number that the file itself states by
   /// that name.
   virtual std::optional<double> number(std::string_view name) const = 0;
   /// Nothing but slopes is ever outside.
   virtual void range(double& low, double& high) const = 0;
+  /// Whether that can be asked. Scripts may name a picture where a curve is meant.
+  virtual bool answers(ImageAsk ask) const { return argument_count(ask) == kImageArguments; }
+  /// What the results can be over a box of the arguments, before what float rounds: here their
+  /// range and 0, and any slope.
+  virtual void enclose(ImageAsk ask, const Interval* in, Interval* out) const;
   /// The files it is read from.
   virtual std::vector<std::string> files() const = 0;
 };
@@ -94,6 +117,9 @@ struct ProgramImage {
   std::shared_ptr<const Image> image;  ///< null: magenta
   friend bool operator==(const ProgramImage& a, const ProgramImage& b) { return a.use == b.use; }
 };
+
+/// The picture with that number among `count`, if it is there and answers; else magenta.
+const Image& image_of(ImageAsk ask, const Image* const* images, int count, double number);
 
 /// Looks up lanes whose first argument is the place of a picture among `count` images; others are
 /// magenta.
@@ -118,6 +144,7 @@ constexpr Builtin image_builtin(Builtin row) {
   row.f64 = no_image_kernel<ask, double>;
   row.image32 = image_kernel<ask, float>;
   row.image64 = image_kernel<ask, double>;
+  row.image_ask = ask;
   return row;
 }
 

@@ -53,6 +53,54 @@ surface curl
     bsdf     = dark;
     emission = screen(0.4 * length(v));
 end
+surface gabor bsdf = dark; emission = screen_signed(gabor(p, [2.0, 1.0])); end
+surface gabor_isotropic bsdf = dark; emission = screen_signed(gabor_isotropic(p, 2.0)); end
+surface gabor_sum
+    wave     = function(id) -> select [2.5, 0.0], if id < 0.5; [0.0, 2.5] otherwise; end;
+    bsdf     = dark;
+    emission = screen_signed(0.5 * gabor_sum(wave, p, 0, [0, 0]));
+end
+surface fbm_tiled
+    bsdf     = dark;
+    emission = screen_signed(fbm_tiled(#perlin, p, [2.0, 2.0], 5));
+end
+
+// Slopes and noises of several numbers: red and green.
+surface perlin_gradient bsdf = dark; emission = screen_pair(0.5 * perlin_gradient(p)); end
+surface perlin_derivative
+    bsdf     = dark;
+    emission = screen_signed(0.15 * perlin_derivative(p, 1, 1));
+end
+surface valuenoise_gradient bsdf = dark; emission = screen_pair(0.4 * valuenoise_gradient(p)); end
+surface valuenoise_derivative
+    bsdf     = dark;
+    emission = screen_signed(0.15 * valuenoise_derivative(p, 0, [0, 0], 1, 1));
+end
+surface simplex_gradient bsdf = dark; emission = screen_pair(0.4 * simplex_gradient(p)); end
+surface simplex_derivative
+    bsdf     = dark;
+    emission = screen_signed(0.08 * simplex_derivative(p, 0, [0, 0], 1, 1));
+end
+surface worley_gradient bsdf = dark; emission = screen_pair(worley_gradient(p)); end
+surface worley_second_gradient bsdf = dark; emission = screen_pair(worley_second_gradient(p)); end
+surface perlin_vector bsdf = dark; emission = screen_pair(perlin_vector(2 * p)); end
+surface valuenoise_vector bsdf = dark; emission = screen_pair(valuenoise_vector(2 * p)); end
+surface simplex_vector bsdf = dark; emission = screen_pair(simplex_vector(2 * p)); end
+surface noise_vector
+    bsdf     = dark;
+    emission = screen_pair(noise_vector(function(v, s) -> worley_signed(v, s), 2, p));
+end
+surface worley_distances
+    d        = worley_distances(p);
+    bsdf     = dark;
+    emission = screen_colour(rgb(0.8 * d[0], 0.5 * d[1], 0.4 * d[2]));
+end
+surface worley_squared
+    d        = worley_squared(p);
+    bsdf     = dark;
+    emission = screen_colour(rgb(d[0], 0.5 * d[1], 0.4 * d[2]));
+end
+
 surface flow bsdf = dark; emission = screen_signed(flow(#perlin, q, 6)); end
 
 // Patterns.

@@ -16,3 +16,9 @@ spectrum screen_signed(real value) = screen(0.5 + 0.5 * value);
 /// >>> screen_colour(rgb(0, 0, 0)) / $wavelength
 /// 0
 spectrum screen_colour(spectrum colour) = 1.5 * colour * illuminant_d65($wavelength);
+
+/// Two numbers of [-1, 1] as red and green.
+/// >>> screen_pair([1, 1]) / screen_colour(rgb(0.7, 0.7, 0.15))
+/// 1
+spectrum screen_pair(real[2] v) =
+    screen_colour(rgb(map(#saturate, [0.35 + 0.35 * v[0], 0.35 + 0.35 * v[1], 0.15])));

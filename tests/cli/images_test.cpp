@@ -43,6 +43,43 @@ TEST_CASE("a missing image is told with every place, and --missing=magenta goes 
   CHECK(contains(memory.err, "--image-memory"));
 }
 
+TEST_CASE(
+    "tables of files: eval, deps, compile, bounds; a missing or broken one names every place") {
+  const Folder folder;
+  folder.write("s.mms",
+               "real a() = round(100 * measured(\"lamp.csv\", 450nm));\n"
+               "real k() = round(100 * measured(\"lamp.csv\", 450nm, column = \"k\"));\n"
+               "real g() = gradient(function(l) -> measured(\"lamp.csv\", l), 450nm) * 1nm;\n"
+               "surface s emission = measured(\"lamp.csv\", $wavelength); end\n");
+  const Outcome missing = folder.mms("check s.mms");
+  CHECK(missing.exit == 1);
+  CHECK(contains(missing.err, "error[E0312]: the table `lamp.csv` does not exist"));
+  std::size_t places = 0;
+  for (std::size_t at = missing.err.find("and here"); at != std::string::npos;
+       at = missing.err.find("and here", at + 1))
+    ++places;
+  CHECK(places == 3);
+  const Outcome without = folder.mms("eval s.mms --missing=magenta");
+  CHECK(without.exit == 0);
+  CHECK(contains(without.out, "a = 100\n"));
+  CHECK(contains(without.err, "1 stands for it"));
+  folder.write("lamp.csv", "nm,value,k\n400,1,5\n500,3,7\n");
+  const Outcome eval = folder.mms("eval s.mms");
+  CHECK(eval.err == "");
+  CHECK(contains(eval.out, "a = 200\n"));
+  CHECK(contains(eval.out, "k = 600\n"));
+  CHECK(contains(eval.out, "g = 0.02\n"));
+  CHECK(folder.mms("check --deps s.mms").out == "lamp.csv\n");
+  CHECK(folder.mms("compile s.mms -o s.mmsc").exit == 0);
+  CHECK(folder.mms("eval s.mmsc").out == eval.out);
+  folder.write("lamp.csv", "400,1\n500,three\n");
+  const Outcome broken = folder.mms("check s.mms");
+  CHECK(broken.exit == 1);
+  CHECK(contains(broken.err, "the table `lamp.csv` is broken: line 2: `three` is no number"));
+  folder.write("s.mms", "real a() = measured(\"lamp.csv\", 450nm, unit = \"inch\");\n");
+  CHECK(contains(folder.mms("check s.mms").err, "`inch` is no unit of tables"));
+}
+
 #if MMS_RENDERER
 
 namespace {

@@ -62,6 +62,24 @@ TEST_CASE("parts of a picture add up to its very bytes: any split, order, filter
   }
 }
 
+TEST_CASE("a render does not go on where a table that the script reads has changed") {
+  const Folder folder;
+  folder.write("s.mms", "surface s bsdf = matte(measured(\"t.csv\", $wavelength)); end\n");
+  folder.write("t.csv", "400 0.5\n700 0.5\n");
+  const std::string render = "render s.mms --quiet --size 16x16 --samples ";
+  good(folder, render + "0:4 -o a.film");
+  good(folder, render + "4:8 -o b.film");
+  good(folder, "merge a.film b.film -o sum.film");
+  folder.write("t.csv", "400 0.5\n700 0.6\n");
+  good(folder, render + "4:8 -o b.film");
+  const Outcome merge = folder.mms("merge a.film b.film -o other.film");
+  CHECK(merge.exit == 3);
+  CHECK(contains(merge.err, "other scripts"));
+  const Outcome resumed = folder.mms(render + "16 -o sum.film --resume");
+  CHECK(resumed.exit == 3);
+  CHECK(contains(resumed.err, "is of another picture"));
+}
+
 TEST_CASE("what does not add up is refused, and says why") {
   const Folder folder;
   folder.write("s.mms", kScript);

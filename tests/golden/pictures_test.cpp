@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <string>
 
+#include "stdlib/stdlib.h"
 #include "tests/golden/evaluate.h"
 #include "tests/sanitized.h"
 
@@ -76,7 +78,49 @@ TEST_CASE("every noise and pattern in a picture: lanes, batches, floats and doub
     // An edge that a point falls on is drawn by rounding.
     CHECK(far <= lanes / 64);
   }
-  CHECK(p.descriptors.size() >= 41);
+}
+
+/// Functions of the noises' and patterns' modules that are neither: constants and numbers that
+/// those are made with, and the searches behind the cellular noises, whose distances have pictures.
+constexpr std::string_view kNoPicture =
+    " limited box_response fade widest coverage turn minkowski worley_ways worley_shifts "
+    "worley_cell worley_border worley_border_shifts manhattan euclidean chebyshev ";
+
+/// The names of the functions of those modules.
+std::set<std::string> noises_and_patterns() {
+  constexpr std::string_view kModules = " noise gabor seeds worley patterns ";
+  const auto of = [&](std::string_view module) {
+    return kModules.find(" " + std::string(module) + " ") != kModules.npos;
+  };
+  std::set<std::string> names;
+  for (const vm::Builtin& row : stdlib::builtins()) {
+    const std::string_view call = row.signature.substr(0, row.signature.find('('));
+    if (row.lobe < 0 && of(row.module)) names.emplace(call.substr(call.rfind(' ') + 1));
+  }
+  for (const stdlib::Module& module : stdlib::modules()) {
+    if (!of(module.name)) continue;
+    for (const stdlib::Module::Item& item : module.items) names.emplace(item.name);
+  }
+  return names;
+}
+
+TEST_CASE("every noise and pattern has its picture in the manual, and what has none is on a list") {
+  const Compiled c = compile(script());
+  REQUIRE_MESSAGE(c.linked, c.text_of_errors());
+  const std::set<std::string> names = noises_and_patterns();
+  std::set<std::string> pictured;
+  for (const vm::Descriptor& d : c.linked->program.descriptors) {
+    CHECK_MESSAGE(names.count(d.name) == 1, d.name << " is no noise and no pattern");
+    const auto file =
+        std::filesystem::path(MMS_SOURCE_DIR) / "docs/images/library" / (d.name + ".png");
+    CHECK_MESSAGE(std::filesystem::exists(file), file.string() << ": `./run figures` makes it");
+    pictured.insert(d.name);
+  }
+  for (const std::string& name : names) {
+    const bool none = kNoPicture.find(" " + name + " ") != kNoPicture.npos;
+    CHECK_MESSAGE((pictured.count(name) == 1) != none,
+                  name << (none ? " has a picture" : " has no surface in library.mms"));
+  }
 }
 
 }  // namespace

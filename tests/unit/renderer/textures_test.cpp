@@ -15,6 +15,7 @@
 #include "renderer/textures.h"
 #include "tests/sanitized.h"
 #include "tests/unit/renderer/tiff.h"
+#include "vm/interval.h"
 
 using namespace mms;
 using namespace mms::renderer;
@@ -66,11 +67,12 @@ struct Place {
   float u, v;
   float across[4] = {0, 0, 0, 0};
   float blur = 0;
+  float blur_v = blur;
 };
 
 std::vector<double> look_up(const vm::Image& image, ImageAsk ask, const Place& p) {
   const float arguments[] = {p.u,         p.v,         p.across[0], p.across[1],
-                             p.across[2], p.across[3], p.blur,      p.blur};
+                             p.across[2], p.across[3], p.blur,      p.blur_v};
   float results[6];
   const float* in[8];
   float* out[6];
@@ -78,6 +80,17 @@ std::vector<double> look_up(const vm::Image& image, ImageAsk ask, const Place& p
   for (int k = 0; k < 6; ++k) out[k] = results + k;
   image.look_up(ask, in, out, 1);
   return {results, results + vm::result_count(ask)};
+}
+
+/// The same for the double machine, at a point of a colour.
+std::vector<double> look_up64(const vm::Image& image, double u, double v) {
+  const double arguments[8] = {u, v};
+  double results[3];
+  const double* in[8];
+  double* const out[] = {results, results + 1, results + 2};
+  for (int k = 0; k < 8; ++k) in[k] = arguments + k;
+  image.look_up64(ImageAsk::Colour, in, out, 1);
+  return {results, results + 3};
 }
 
 /// Column or row `k` of `n` under a wrap mode; -1: black.
@@ -140,7 +153,7 @@ TEST_CASE("textures: every filter and wrap mode, with its slopes, is its formula
       use.filter = filter;
       use.wrap = wrap;
       const auto image = open(use);
-      double worst = 0, worst_slope = 0;
+      double worst = 0, worst_slope = 0, worst64 = 0;
       for (int k = 0; k < 300; ++k) {
         const Place p{anywhere(random), anywhere(random)};
         // The texel changes here, and the slope with it: where a float of u falls is rounding.
@@ -150,7 +163,11 @@ TEST_CASE("textures: every filter and wrap mode, with its slopes, is its formula
         if (std::abs(std::remainder(y + half, 1)) < 1e-3) continue;
         const auto colour = look_up(*image, ImageAsk::Colour, p);
         const auto slope = look_up(*image, ImageAsk::ColourSlope, p);
+        const double u = double(p.u) * (1 + 0x1p-25), v = double(p.v) * (1 - 0x1p-26);
+        const auto wide = look_up64(*image, u, v);
         for (int c = 0; c < 3; ++c) {
+          worst64 =
+              std::max(worst64, std::abs(wide[std::size_t(c)] - expected(t, c, use, u, v)[0]));
           const auto e = expected(t, c, use, p.u, p.v);
           worst = std::max(worst, std::abs(colour[std::size_t(c)] - e[0]));
           for (int d = 0; d < 2; ++d)
@@ -163,6 +180,8 @@ TEST_CASE("textures: every filter and wrap mode, with its slopes, is its formula
       // 12 u of |u| < 3 is off by 2^-19, and texels differ by up to 3: 6e-6 along either axis,
       // and the slopes of the cubic by 12 times that, twice.
       CHECK(worst < 3e-5);
+      // The double machine rounds the place to a float: another 2^-25 of 3 by a slope of 12 x 3.
+      CHECK(worst64 < 3.5e-5);
       CHECK(worst_slope < 1e-3);
     }
 }
@@ -252,6 +271,13 @@ TEST_CASE("textures: the pixel is filtered away along its own axes") {
   const Place blurred{white, row, {0, 0, 0, 0}, 0.25f};
   CHECK(value(*c, blurred) == doctest::Approx(0.5).epsilon(0.02));
   CHECK(value(*r, blurred) == doctest::Approx(0.5).epsilon(0.02));
+  // Or along one axis: lines across it are gone, lines along it as sharp as ever.
+  const Place blurred_u{white, row, {0, 0, 0, 0}, 0.2f, 0};
+  const Place blurred_v{white, row, {0, 0, 0, 0}, 0, 0.2f};
+  CHECK(value(*c, blurred_u) == doctest::Approx(0.5).epsilon(0.05));
+  CHECK(std::abs(value(*r, blurred_u) - 0.5) > 0.4);
+  CHECK(value(*r, blurred_v) == doctest::Approx(0.5).epsilon(0.05));
+  CHECK(std::abs(value(*c, blurred_v) - 0.5) > 0.4);
 }
 
 TEST_CASE("textures: packed blocks keep within a step of their line, and a quarter of the memory") {
@@ -329,6 +355,77 @@ TEST_CASE("textures: what a file states, and its range") {
   CHECK(low <= *least);
   CHECK(low >= std::min(*least, 0.0f));
   CHECK(high == *most);
+}
+
+TEST_CASE("textures: bounds hold any lookup; near the texels that it sees, and for slopes") {
+  const Folder folder;
+  // Steep on one side only, so that bounds of a part are those of the part.
+  Texels t{64, 48, 3, {}};
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> noise(-1, 1), unit(0, 1);
+  for (int y = 0; y < t.height; ++y)
+    for (int x = 0; x < t.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        t.values.push_back(x < 32 ? noise(random) : 0.01f * noise(random));
+  ImageUse use = use_of(folder.write("a.tif", t));
+  const int rounds = kSanitized ? 20 : 200;
+  for (const char* filter : {"nearest", "bilinear", "bicubic", "smart"})
+    for (const char* wrap : {"repeat", "mirror", "clamp", "black"})
+      for (const char* storage : {"raw", "compressed"}) {
+        CAPTURE(filter);
+        CAPTURE(wrap);
+        CAPTURE(storage);
+        use.filter = filter;
+        use.wrap = wrap;
+        use.storage = storage;
+        const auto image = open(use);
+        int beyond = 0;
+        for (int k = 0; k < rounds; ++k) {
+          vm::Interval box[vm::kImageArguments] = {};
+          const double size = k % 4 == 0 ? 0.5 : 0.02;
+          for (int a = 0; a < 2; ++a) {
+            const double at = 4 * unit(random) - 1.5;
+            box[a] = {at, at + size * unit(random), false};
+          }
+          if (k % 2)  // a pixel that is not a point
+            for (int a = 2; a < vm::kImageArguments; ++a)
+              box[a] = vm::Interval::point(double(0.1f * noise(random)));
+          for (const ImageAsk ask :
+               {ImageAsk::Colour, ImageAsk::ColourSlope, ImageAsk::Number, ImageAsk::NumberSlope}) {
+            vm::Interval bounds[6];
+            image->enclose(ask, box, bounds);
+            for (int p = 0; p < 10; ++p) {
+              Place place{};
+              float* const to[] = {&place.u, &place.v};
+              for (int a = 0; a < 2; ++a)
+                *to[a] = float(std::lerp(box[a].lo, box[a].hi, double(unit(random))));
+              for (int a = 0; a < 4; ++a) place.across[a] = float(box[2 + a].lo);
+              place.blur = float(box[6].lo);
+              place.blur_v = float(box[7].lo);
+              const auto found = look_up(*image, ask, place);
+              for (std::size_t r = 0; r < found.size(); ++r) {
+                const double slack = 1e-5 * (1 + std::abs(found[r]));
+                beyond += found[r] < bounds[r].lo - slack || found[r] > bounds[r].hi + slack;
+              }
+            }
+          }
+        }
+        CHECK(beyond == 0);
+        // A part is known better than all of it: here its texels are at most 0.01.
+        vm::Interval part[vm::kImageArguments] = {}, bounds[3];
+        part[0] = {0.85, 0.87, false};
+        part[1] = {0.4, 0.5, false};
+        image->enclose(ImageAsk::Colour, part, bounds);
+        CHECK(bounds[0].lo >= -0.011);
+        CHECK(bounds[0].hi <= 0.011);
+        // Texels differ by at most 2: no slope is above twice as many a unit, and black and
+        // packing.
+        vm::Interval slopes[2];
+        image->enclose(ImageAsk::NumberSlope, part, slopes);
+        CHECK(slopes[0].hi <= 2.01 * 64);
+        CHECK(slopes[1].hi <= 2.01 * 48);
+        if (use.filter == "nearest") CHECK(slopes[0].hi == 0);
+      }
 }
 
 TEST_CASE("textures: what is no picture or is cut off is an error") {
