@@ -35,9 +35,11 @@ struct InterfaceTables {
 };
 extern const InterfaceTables kGgxInterface;
 
-/// Mean Fresnel reflectance over the directions that `glossy` scatters to, minus that at the
-/// direction it scatters from: [gloss][index][direction], indices above 1.
+/// Mean Fresnel reflectance over the directions that a coat's lobe scatters to, minus that at the
+/// direction it scatters from, for indices above 1: [gloss][index][direction] of `glossy`,
+/// [alpha][index][direction] of white isotropic `microfacet`.
 extern const float* const kGlossyCoat;
+extern const float* const kGgxCoat;
 
 /// How directions and widths are laid out over [0, 1] along the axes of the tables.
 namespace axes {
@@ -51,7 +53,7 @@ inline constexpr int kStretchedMean = 65, kMeanAspect = 12;
 /// [1] where the index falls on the far side: the loss follows the critical angle there.
 inline constexpr int kInterfaceAlpha = 17, kIndex[] = {29, 49}, kInterfaceDirection[] = {61, 81};
 inline constexpr int kInterfaceMean = 65;
-inline constexpr int kGloss = 33, kCoatIndex = 37, kCoatDirection = 49;
+inline constexpr int kGloss = 33, kCoatAlpha = 25, kCoatIndex = 37, kCoatDirection = 49;
 inline constexpr double kLargestGloss = 5e4;
 
 /// Of a direction of |cosine| `z` and tangential length `s`; fine where z is near 0 or `width` s.
@@ -72,6 +74,12 @@ inline R width(R alpha) {
 template <class R>
 inline R alpha(R a, R largest) {
   return std::sqrt(a / largest);
+}
+
+/// Of a coat: finer where facets are all but flat.
+template <class R>
+inline R coat_alpha(R a) {
+  return std::sqrt(std::sqrt(a));
 }
 
 /// For means, which fall as alpha^2 ln(1 / alpha).
@@ -205,18 +213,30 @@ inline R transmitted_share(R mean_here, R mean_there, R eta) {
   return there / (mean_here + there);
 }
 
-/// Mean over wi of Fresnel's F(|wi.z|), as `glossy` scatters from a direction of |cosine| `z` with
-/// reflectance `f` there; `eta` > 1.
+/// The lobe of a coat of which it is known how it spreads light: a table and the place in it.
 template <class R>
-inline R glossy_mean_fresnel(R gloss, R eta, R z, R f) {
-  using namespace axes;
-  const auto g = Stencil<R>::at(axes::gloss(gloss), kGloss);
-  const auto n = Stencil<R>::at(index(eta), kCoatIndex);
-  const auto d = Stencil<R>::at(coat_direction(z), kCoatDirection);
-  constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatIndex);
-  const R mean = f + interpolate(kGlossyCoat, g, n0, n, n1, d);
-  return mean > 0 ? std::min(mean, R(1)) : R(0);
-}
+struct CoatLobe {
+  const float* table = nullptr;  ///< null: not known
+  Stencil<R> width;
+
+  static CoatLobe glossy(R gloss) {
+    return {kGlossyCoat, Stencil<R>::at(axes::gloss(gloss), axes::kGloss)};
+  }
+  static CoatLobe microfacet(R alpha) {
+    return {kGgxCoat, Stencil<R>::at(axes::coat_alpha(alpha), axes::kCoatAlpha)};
+  }
+
+  /// Mean over wi of Fresnel's F(|wi.z|), as the lobe scatters from a direction of |cosine| `z`
+  /// with reflectance `f` there; `eta` > 1.
+  R mean_fresnel(R eta, R z, R f) const {
+    using namespace axes;
+    const auto n = Stencil<R>::at(index(eta), kCoatIndex);
+    const auto d = Stencil<R>::at(coat_direction(z), kCoatDirection);
+    constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatIndex);
+    const R mean = f + interpolate(table, width, n0, n, n1, d);
+    return mean > 0 ? std::min(mean, R(1)) : R(0);
+  }
+};
 
 /// How directions of further bounces are drawn: much as they are distributed, in closed form.
 /// The density over projected solid angle is proportional to 1 / (z^2 + alpha^2).

@@ -212,6 +212,17 @@ TEST_CASE("white under a white coat") {
         CHECK_MESSAGE(b < 1 + bound, ior, " ", gloss, " at ", degrees, ": ", b);
       }
     MESSAGE("white matte under index ", ior, " and gloss: largest |albedo - 1| ", worst);
+    worst = 0;
+    for (double roughness : {0.1, 0.3, 0.65, 1.0})
+      for (double degrees : {0.0, 60.0, 80.0, 89.0, 89.99}) {
+        if (kSanitized && (roughness != 0.65 || degrees != 80)) continue;
+        const double a = albedo(fresnel_mix(matte(1), microfacet(1, roughness), ior), degrees);
+        worst = std::max(worst, std::abs(a - 1));
+        CHECK_MESSAGE(std::abs(a - 1) < bound, ior, " ", roughness, " at ", degrees, ": ", a);
+        const double b = albedo(fresnel_mix(glossy(1, 10), microfacet(1, roughness), ior), degrees);
+        CHECK_MESSAGE(b < 1 + bound, ior, " ", roughness, " at ", degrees, ": ", b);
+      }
+    MESSAGE("white matte under index ", ior, " and microfacets: largest |albedo - 1| ", worst);
   }
 }
 
