@@ -18,18 +18,18 @@
 /// lossless coat never exceeds albedo 1, and a specular coat over a Lambert base is 1 exactly; but
 /// near grazing a broad coat loses much: min(F, F') is small where F' is.
 ///
-/// Where the coat is one `glossy` and the index above 1, what it reflects is known: with M(wo) the
-/// mean of F' over what it scatters (materials/energy.h) its factor is
+/// Where the coat is one `glossy` or isotropic `microfacet` and the index above 1, what it reflects
+/// is known: with M(wo) the mean of F' over what it scatters (materials/energy.h) its factor is
 ///   coat: (F + F') / 2          which reflects E(wo) = (F + M(wo)) / 2
 ///   base: 1 - max(E, E')        or, for the Lambert lobes right below it,
 ///         (1 - E)(1 - E') / (1 - mean F)   as the means of E and F are the same
-/// so that a white matte under a white gloss is 1 in every direction, within 1e-3 (2e-3 for an
-/// index below 1.1). Of nested
+/// so that a white matte under such a white coat is 1 in every direction, within 1e-4 (facets
+/// next to a mirror, of a roughness below 0.1: 2e-3). Of nested
 /// `fresnel_mix`, only the one nearest the Lambert lobe uses the product, for the same bound.
 
 #include <array>
 
-#include "materials/energy.h"
+#include "materials/facets.h"
 #include "materials/fresnel.h"
 #include "materials/layout.h"
 #include "materials/lobe.h"
@@ -69,46 +69,52 @@ inline void fresnel_splits(const R* ior, R c, Spectrum<R>& reflected, Spectrum<R
   });
 }
 
-/// The gloss of the child `node` where it is a `glossy` that is not a mirror; else negative.
+/// The lobe of the child `node` where it is one whose spread is known and no mirror.
 template <class R>
-inline R gloss_of(const Layout& layout, const R* params, int node) {
+inline CoatLobe<R> coat_lobe(const Layout& layout, const R* params, int node) {
   const Layout::Node& n = layout.nodes()[node];
-  if (n.lobe != Lobe::Glossy) return -1;
-  const R gloss = non_negative(params[n.first_param + kWavelengths]);
-  return gloss <= R(axes::kLargestGloss) ? gloss : R(-1);
+  const R* p = params + n.first_param + kWavelengths;
+  if (n.lobe == Lobe::Glossy) {
+    const R gloss = non_negative(p[0]);
+    if (gloss <= R(axes::kLargestGloss)) return CoatLobe<R>::glossy(gloss);
+  } else if (n.lobe == Lobe::Microfacet) {
+    const Alpha<R> a = Alpha<R>::from(p[0], p[1]);
+    if (a.ax == a.ay && !a.specular()) return CoatLobe<R>::microfacet(a.ax);
+  }
+  return {};
 }
 
-/// Reflected and transmitted by a coat of that gloss (negative: unknown) in all, and the factor of
-/// its lobe for one pair of directions.
+/// Reflected and transmitted by a coat of that lobe in all, and the factor of the lobe for one pair
+/// of directions.
 template <class R>
 struct CoatFactors {
   R coat, base, lambert;
 };
 
 template <class R>
-inline CoatFactors<R> coat_factors(R eta, R gloss, R cos_o, R cos_i, FresnelSplit<R> o,
-                                   FresnelSplit<R> i) {
+inline CoatFactors<R> coat_factors(R eta, const CoatLobe<R>& lobe, R cos_o, R cos_i,
+                                   FresnelSplit<R> o, FresnelSplit<R> i) {
   const R kept = 1 - fresnel_dielectric_diffuse(eta);
   R coat = std::min(o.reflected, i.reflected);
-  if (gloss >= 0 && eta > 1) {
+  if (lobe.table && eta > 1) {
     coat = (o.reflected + i.reflected) / 2;
-    o.transmitted = (o.transmitted + 1 - glossy_mean_fresnel(gloss, eta, cos_o, o.reflected)) / 2;
-    i.transmitted = (i.transmitted + 1 - glossy_mean_fresnel(gloss, eta, cos_i, i.reflected)) / 2;
+    o.transmitted = (o.transmitted + 1 - lobe.mean_fresnel(eta, cos_o, o.reflected)) / 2;
+    i.transmitted = (i.transmitted + 1 - lobe.mean_fresnel(eta, cos_i, i.reflected)) / 2;
   }
   return {coat, std::min(o.transmitted, i.transmitted),
           kept > 0 ? o.transmitted * i.transmitted / kept : R(0)};
 }
 
 template <class R>
-inline void weigh_fresnel_mix(const R* ior, R gloss, R cos_o, R cos_i, const NodeWeight<R>& w,
-                              NodeWeight<R>& base, NodeWeight<R>& coat) {
+inline void weigh_fresnel_mix(const R* ior, const CoatLobe<R>& lobe, R cos_o, R cos_i,
+                              const NodeWeight<R>& w, NodeWeight<R>& base, NodeWeight<R>& coat) {
   cos_o = limited(cos_o, R(0), R(1));
   cos_i = limited(cos_i, R(0), R(1));
   CoatFactors<R> f{};
   for_each_index(ior, [&](int j, bool repeated) {
     const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
     if (!repeated)
-      f = coat_factors(eta, gloss, cos_o, cos_i, fresnel_split(cos_o, eta),
+      f = coat_factors(eta, lobe, cos_o, cos_i, fresnel_split(cos_o, eta),
                        fresnel_split(cos_i, eta));
     // The factor of an outer mix stays in its bounded form: w.other, not w.lambert.
     coat.other[j] = coat.lambert[j] = w.other[j] * f.coat;
@@ -119,10 +125,10 @@ inline void weigh_fresnel_mix(const R* ior, R gloss, R cos_o, R cos_i, const Nod
 
 /// Roughly how a coat splits what comes along `cos_o`.
 template <class R>
-inline void choose_fresnel_mix(const R* ior, R gloss, R cos_o, Spectrum<R>& reflected,
-                               Spectrum<R>& transmitted) {
+inline void choose_fresnel_mix(const R* ior, const CoatLobe<R>& lobe, R cos_o,
+                               Spectrum<R>& reflected, Spectrum<R>& transmitted) {
   fresnel_splits(ior, cos_o, reflected, transmitted);
-  if (gloss < 0) return;
+  if (!lobe.table) return;
   for (int j = 0; j < kWavelengths; ++j) {
     const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
     if (!(eta > 1)) continue;
@@ -185,11 +191,11 @@ inline void weigh(const Layout& layout, const R* params, R cos_o, R cos_i,
         w[a] = w[b] = w[i];
         break;
       case Lobe::FresnelMix:
-        detail::weigh_fresnel_mix(p, detail::gloss_of(layout, params, b), cos_o, cos_i, w[i], w[a],
+        detail::weigh_fresnel_mix(p, detail::coat_lobe(layout, params, b), cos_o, cos_i, w[i], w[a],
                                   w[b]);
         break;
       case Lobe::Coat:
-        detail::weigh_fresnel_mix(p + 1 + kWavelengths, detail::gloss_of(layout, params, a), cos_o,
+        detail::weigh_fresnel_mix(p + 1 + kWavelengths, detail::coat_lobe(layout, params, a), cos_o,
                                   cos_i, w[i], w[b], w[a]);
         detail::dim_by_layer(p, cos_o, cos_i, [&](int j, R through) {
           w[b].other[j] *= through;
@@ -230,7 +236,7 @@ inline void weigh_for_choice(const Layout& layout, const R* params, R cos_o,
         break;
       case Lobe::FresnelMix: {
         Spectrum<R> reflected, transmitted;
-        detail::choose_fresnel_mix(p, detail::gloss_of(layout, params, b), cos_o, reflected,
+        detail::choose_fresnel_mix(p, detail::coat_lobe(layout, params, b), cos_o, reflected,
                                    transmitted);
         w[a] = w[i] * transmitted;
         w[b] = w[i] * reflected;
@@ -238,8 +244,8 @@ inline void weigh_for_choice(const Layout& layout, const R* params, R cos_o,
       }
       case Lobe::Coat: {
         Spectrum<R> reflected, transmitted;
-        detail::choose_fresnel_mix(p + 1 + kWavelengths, detail::gloss_of(layout, params, a), cos_o,
-                                   reflected, transmitted);
+        detail::choose_fresnel_mix(p + 1 + kWavelengths, detail::coat_lobe(layout, params, a),
+                                   cos_o, reflected, transmitted);
         w[a] = w[i] * reflected;
         w[b] = w[i] * transmitted;
         detail::dim_by_layer(p, cos_o, R(1), [&](int j, R through) { w[b][j] *= through; });

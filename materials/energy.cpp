@@ -12,6 +12,7 @@ const FacetTables kGgxTables{kGgxLoss, kGgxMean, kGgxStretched, kGgxStretchedMea
 const FacetTables kBeckmannTables{kBeckmannLoss, kBeckmannMean, kBeckmannStretched,
                                   kBeckmannStretchedMean};
 const float* const kGlossyCoat = kGlossyCoatTable;
+const float* const kGgxCoat = kGgxCoatTable;
 const InterfaceTables kGgxInterface{{kGgxDense, kGgxRare}, {kGgxDenseMean, kGgxRareMean}};
 
 }  // namespace mms::materials

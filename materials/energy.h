@@ -35,9 +35,11 @@ struct InterfaceTables {
 };
 extern const InterfaceTables kGgxInterface;
 
-/// Mean Fresnel reflectance over the directions that `glossy` scatters to, minus that at the
-/// direction it scatters from: [gloss][index][direction], indices above 1.
+/// Mean Fresnel reflectance over the directions that a coat's lobe scatters to, minus that at the
+/// direction it scatters from, for indices above 1: [gloss][index][direction] of `glossy`,
+/// [alpha][index][direction] of white isotropic `microfacet`.
 extern const float* const kGlossyCoat;
+extern const float* const kGgxCoat;
 
 /// How directions and widths are laid out over [0, 1] along the axes of the tables.
 namespace axes {
@@ -46,11 +48,12 @@ inline constexpr double kMaxStretched = 3.2;  ///< the widest alpha, at full ani
 inline constexpr double kMinMeanAlpha = 1e-5;
 
 inline constexpr int kAlpha = 65, kDirection = 65, kMean = 193;
-inline constexpr int kStretchedAlpha = 14, kAspect = 6, kAzimuth = 6, kStretchedDirection = 21;
+inline constexpr int kStretchedAlpha = 14, kAspect = 9, kAzimuth = 9, kStretchedDirection = 33;
 inline constexpr int kStretchedMean = 65, kMeanAspect = 12;
-inline constexpr int kInterfaceAlpha = 21, kIndex = 23, kInterfaceDirection = 61;
+/// [1] where the index falls on the far side: the loss follows the critical angle there.
+inline constexpr int kInterfaceAlpha = 17, kIndex[] = {29, 49}, kInterfaceDirection[] = {61, 81};
 inline constexpr int kInterfaceMean = 65;
-inline constexpr int kGloss = 33, kCoatIndex = 23, kCoatDirection = 41;
+inline constexpr int kGloss = 33, kCoatAlpha = 25, kCoatIndex = 37, kCoatDirection = 49;
 inline constexpr double kLargestGloss = 5e4;
 
 /// Of a direction of |cosine| `z` and tangential length `s`; fine where z is near 0 or `width` s.
@@ -73,6 +76,12 @@ inline R alpha(R a, R largest) {
   return std::sqrt(a / largest);
 }
 
+/// Of a coat: finer where facets are all but flat.
+template <class R>
+inline R coat_alpha(R a) {
+  return std::sqrt(std::sqrt(a));
+}
+
 /// For means, which fall as alpha^2 ln(1 / alpha).
 template <class R>
 inline R log_alpha(R a, R largest) {
@@ -86,16 +95,18 @@ inline R aspect(R quotient) {
 }
 
 /// The same for an interface, whose critical angle may be anywhere: two parts `direction`, one
-/// angle.
+/// angle; and next to grazing, where the loss grows as z^0.8 for indices near 1, finer still.
 template <class R>
 inline R interface_direction(R z, R s, R width) {
-  return (2 * direction(z, s, width) + std::atan2(z, s) * (2 / std::numbers::pi_v<R>)) / 3;
+  const R even = (2 * direction(z, s, width) + std::atan2(z, s) * (2 / std::numbers::pi_v<R>)) / 3;
+  return (even + std::sqrt(even)) / 2;
 }
 
-/// Of the relative index `eta`: 0 at 1, towards 1 for 0 and infinity.
+/// Of the relative index `eta`: 0 at 1, towards 1 for 0 and infinity. Next to 1, Fresnel's factor
+/// changes over cosines of the size of sqrt |eta - 1|, which the fourth root keeps apart.
 template <class R>
 inline R index(R eta) {
-  return std::sqrt(std::abs(eta - 1) / (eta + 1));
+  return std::sqrt(std::sqrt(std::abs(eta - 1) / (eta + 1)));
 }
 
 template <class R>
@@ -106,7 +117,7 @@ inline R gloss(R n) {
 /// Of a coat, crowded towards grazing.
 template <class R>
 inline R coat_direction(R z) {
-  return std::sqrt(std::asin(std::min(z, R(1))) * (2 / std::numbers::pi_v<R>));
+  return std::sqrt(std::sqrt(std::asin(std::min(z, R(1))) * (2 / std::numbers::pi_v<R>)));
 }
 
 }  // namespace axes
@@ -175,11 +186,12 @@ struct InterfaceLoss {
   R at(Vec3<R> w) const {
     using namespace axes;
     const R z = std::abs(w.z), s = std::sqrt(w.x * w.x + w.y * w.y);
-    const auto d = Stencil<R>::at(interface_direction(z, s, width(alpha)), kInterfaceDirection);
+    const int falls = eta < 1, directions = kInterfaceDirection[falls], indices = kIndex[falls];
+    const auto d = Stencil<R>::at(interface_direction(z, s, width(alpha)), directions);
     const auto a = Stencil<R>::at(axes::alpha(alpha, R(1)), kInterfaceAlpha);
-    const auto n = Stencil<R>::at(index(eta), kIndex);
-    constexpr int n1 = coefficients(kInterfaceDirection), n0 = n1 * coefficients(kIndex);
-    const R l = interpolate(tables->loss[eta < 1], a, n0, n, n1, d);
+    const auto n = Stencil<R>::at(index(eta), indices);
+    const int n1 = coefficients(directions), n0 = n1 * coefficients(indices);
+    const R l = interpolate(tables->loss[falls], a, n0, n, n1, d);
     return l > 0 ? std::min(l, R(1)) : R(0);
   }
 
@@ -187,9 +199,9 @@ struct InterfaceLoss {
   R mean() const {
     using namespace axes;
     const auto a = Stencil<R>::at(log_alpha(alpha, R(1)), kInterfaceMean);
-    const auto n = Stencil<R>::at(index(eta), kIndex);
+    const auto n = Stencil<R>::at(index(eta), kIndex[eta < 1]);
     return mean_unit(alpha * alpha) *
-           interpolate(tables->mean[eta < 1], a, coefficients(kIndex), n);
+           interpolate(tables->mean[eta < 1], a, coefficients(kIndex[eta < 1]), n);
   }
 };
 
@@ -201,18 +213,30 @@ inline R transmitted_share(R mean_here, R mean_there, R eta) {
   return there / (mean_here + there);
 }
 
-/// Mean over wi of Fresnel's F(|wi.z|), as `glossy` scatters from a direction of |cosine| `z` with
-/// reflectance `f` there; `eta` > 1.
+/// The lobe of a coat of which it is known how it spreads light: a table and the place in it.
 template <class R>
-inline R glossy_mean_fresnel(R gloss, R eta, R z, R f) {
-  using namespace axes;
-  const auto g = Stencil<R>::at(axes::gloss(gloss), kGloss);
-  const auto n = Stencil<R>::at(index(eta), kCoatIndex);
-  const auto d = Stencil<R>::at(coat_direction(z), kCoatDirection);
-  constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatIndex);
-  const R mean = f + interpolate(kGlossyCoat, g, n0, n, n1, d);
-  return mean > 0 ? std::min(mean, R(1)) : R(0);
-}
+struct CoatLobe {
+  const float* table = nullptr;  ///< null: not known
+  Stencil<R> width;
+
+  static CoatLobe glossy(R gloss) {
+    return {kGlossyCoat, Stencil<R>::at(axes::gloss(gloss), axes::kGloss)};
+  }
+  static CoatLobe microfacet(R alpha) {
+    return {kGgxCoat, Stencil<R>::at(axes::coat_alpha(alpha), axes::kCoatAlpha)};
+  }
+
+  /// Mean over wi of Fresnel's F(|wi.z|), as the lobe scatters from a direction of |cosine| `z`
+  /// with reflectance `f` there; `eta` > 1.
+  R mean_fresnel(R eta, R z, R f) const {
+    using namespace axes;
+    const auto n = Stencil<R>::at(index(eta), kCoatIndex);
+    const auto d = Stencil<R>::at(coat_direction(z), kCoatDirection);
+    constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatIndex);
+    const R mean = f + interpolate(table, width, n0, n, n1, d);
+    return mean > 0 ? std::min(mean, R(1)) : R(0);
+  }
+};
 
 /// How directions of further bounces are drawn: much as they are distributed, in closed form.
 /// The density over projected solid angle is proportional to 1 / (z^2 + alpha^2).
