@@ -43,7 +43,8 @@ constexpr unsigned traits(Lobe lobe) { return kTraits[static_cast<int>(lobe)]; }
 /// Kinds of the arguments of a row, in formal order: 'm'aterial, 's'pectrum or 'r'eal.
 struct Formals {
   char kinds[8] = {};
-  bool tint[8] = {};  ///< a colour: the model's weight for light is at most the largest of these
+  bool index[8] = {};  ///< a refractive index
+  bool tint[8] = {};   ///< a colour: the model's weight for light is at most the largest of these
   int count = 0;
 };
 
@@ -62,6 +63,7 @@ constexpr Formals formals(std::string_view signature) {
     if (item.empty()) continue;
     for (std::string_view tint : {"colour", "reflected", "transmitted"})
       f.tint[f.count] |= kind == 's' && item.find(tint) != item.npos;
+    f.index[f.count] = kind == 's' && item.find("ior") != item.npos;
     f.kinds[f.count++] = kind;
   }
   return f;

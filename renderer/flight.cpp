@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "materials/emission.h"
 #include "renderer/vertex.h"
 
 namespace mms::renderer {
@@ -15,15 +14,6 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 Spectrumf unit_clamped(const Spectrumf& s) {
   return Spectrumf::map([](float x) { return x > 0 ? std::min(x, 1.0f) : 0.0f; }, s);
-}
-
-/// Coefficients are not negative; what is not a number counts as nothing there.
-Spectrumf not_negative(const Spectrumf& s) {
-  return Spectrumf::map([](float x) { return x > 0 ? x : 0.0f; }, s);
-}
-
-Spectrumf transmittance(const Spectrumf& extinction, float length) {
-  return Spectrumf::map([=](float s) { return s > 0 ? std::exp(-s * length) : 1.0f; }, extinction);
 }
 
 }  // namespace
@@ -85,7 +75,7 @@ ScriptPoint script_point(const World& world, const Flight& f, const Hit* hit,
     p.surface = surface_of(world.scene, *hit, f.origin, f.direction);
     return p;
   }
-  p.object = &world.scene.objects[f.media.current()];
+  p.object = &world.scene.objects[f.medium];
   p.surface.position = Vec3d(f.origin) + Vec3d(f.direction) * double(f.t);
   const Frame<double> axes = Frame<double>::around(p.view);
   p.surface.normal = p.surface.geometric_normal = axes.n;
@@ -94,40 +84,66 @@ ScriptPoint script_point(const World& world, const Flight& f, const Hit* hit,
   return p;
 }
 
-void Flights::fly(std::vector<Flight>& flights, const std::vector<PathView>& paths) {
+void Flights::fly(std::vector<Flight>& flights, const std::vector<PathView>& paths, double left) {
   if (world_.plain) {
     Crossings none;
-    for (Flight& f : flights) trace(f, none, 0);
+    for (Flight& f : flights)
+      if (f.end == End::Flying) trace(f, none, 0);
     return;
   }
-  crossings_.resize(flights.size());
   flying_.clear();
   for (int i = 0; i < int(flights.size()); ++i) {
-    trace(flights[i], crossings_[i], 0);
+    if (flights[i].end != End::Flying) continue;
+    if (flights[i].crossings < 0) begin(flights[i]);
     if (flights[i].end == End::Flying) flying_.push_back(i);
   }
-  while (!flying_.empty()) {
-    requests_.clear();
-    for (int i : flying_) {
+  const auto enough = std::size_t(left * double(flying_.size()));
+  while (flying_.size() > enough) {
+    advance_all(flights, paths);
+    std::erase_if(flying_, [&](int i) {
       Flight& f = flights[i];
-      const Need need = advance(f, crossings_[i], paths[f.path]);
-      if (need == Need::Nothing) continue;
-      const int key = need == Need::Crossing
-                          ? world_.scene.objects[crossings_[i].hits[f.next].object].surface
-                          : world_.scene.objects[f.media.current()].volume;
-      requests_.push_back({i, need, key});
-    }
-    std::stable_sort(requests_.begin(), requests_.end(), [](const Request& a, const Request& b) {
-      return std::pair(a.need, a.key) < std::pair(b.need, b.key);
+      if (f.end == End::Flying) return false;
+      free_crossings_.push_back(f.crossings);
+      f.crossings = -1;
+      return true;
     });
-    for (std::size_t first = 0, last = 0; first < requests_.size(); first = last) {
-      while (last < requests_.size() && last - first < std::size_t(scripts_.width()) &&
-             requests_[last].need == requests_[first].need &&
-             requests_[last].key == requests_[first].key)
-        ++last;
-      answer(flights, paths, std::span(requests_).subspan(first, last - first));
-    }
-    std::erase_if(flying_, [&](int i) { return flights[i].end != End::Flying; });
+  }
+}
+
+/// Traces a flight that has not begun.
+void Flights::begin(Flight& f) {
+  if (free_crossings_.empty()) {
+    free_crossings_.push_back(int(crossings_.size()));
+    crossings_.emplace_back();
+  }
+  trace(f, crossings_[free_crossings_.back()], 0);
+  if (f.end != End::Flying) return;
+  f.crossings = free_crossings_.back();
+  free_crossings_.pop_back();
+}
+
+/// Each flight goes on to its end or to where a script has to be asked, and is answered.
+void Flights::advance_all(std::vector<Flight>& flights, const std::vector<PathView>& paths) {
+  requests_.clear();
+  for (int i : flying_) {
+    Flight& f = flights[i];
+    Crossings& crossings = crossings_[f.crossings];
+    const Need need = advance(f, crossings, paths[f.path]);
+    if (need == Need::Nothing) continue;
+    const int key = need == Need::Crossing
+                        ? world_.scene.objects[crossings.hits[f.next].object].surface
+                        : world_.scene.objects[f.medium].volume;
+    requests_.push_back({i, need, key});
+  }
+  std::stable_sort(requests_.begin(), requests_.end(), [](const Request& a, const Request& b) {
+    return std::pair(a.need, a.key) < std::pair(b.need, b.key);
+  });
+  for (std::size_t first = 0, last = 0; first < requests_.size(); first = last) {
+    while (last < requests_.size() && last - first < std::size_t(scripts_.width()) &&
+           requests_[last].need == requests_[first].need &&
+           requests_[last].key == requests_[first].key)
+      ++last;
+    answer(flights, paths, std::span(requests_).subspan(first, last - first));
   }
 }
 
@@ -157,64 +173,32 @@ Flights::Need Flights::advance(Flight& f, Crossings& crossings, const PathView& 
     }
     const bool at_crossing = f.next < crossings.count;
     const float to = at_crossing ? crossings.hits[f.next].t : f.hit.object >= 0 ? f.hit.t : f.t_max;
-    if (to == kInfinity) f.media.count = 0;  // left through a gap of a mesh that is not closed
-    if (const int object = f.media.current(); object >= 0 && to > f.t) {
-      const CompiledDescriptor& volume = world_.volume_of_object(object);
-      if (volume.homogeneous) {
-        if (f.medium_object != object) return Need::Coefficients;
-        if (through_homogeneous(f, to - f.t, path)) return Need::Nothing;
-      } else {
-        const double depth = -std::log1p(-random(f, path));
-        const MajorantGrid::Collision c =
-            world_.majorants[object].collide(Vec3d(f.origin), Vec3d(f.direction), f.t, to, depth);
-        if (c.t < to) {  // never where the medium is empty
-          f.t = float(c.t);
-          f.majorant = c.majorant;
-          return Need::Collision;
-        }
-      }
-    }
+    if (to == kInfinity) f.media.clear();  // left through a gap of a mesh that is not closed
+    Need need = Need::Nothing;
+    if (!f.media.empty() && to > f.t && !along_media(f, to, path, need)) return need;
     f.t = to;
-    if (at_crossing) return Need::Crossing;
+    if (at_crossing) {
+      const Hit& hit = crossings.hits[f.next];
+      if (hidden(world_.scene, f.media, hit.object)) {
+        pass_false_surface(f, hit);
+        continue;
+      }
+      if (world_.semi_transparent[hit.object]) return Need::Crossing;
+      f.hit = hit;  // collected only because it might have been hidden
+      f.end = f.errand == Errand::Path ? End::Surface : End::Lost;
+      return Need::Nothing;
+    }
     f.end = f.hit.object >= 0 ? End::Surface : End::Free;
     return Need::Nothing;
   }
 }
 
-/// A stretch of homogeneous medium in closed form; true if the flight ended in it. Where to scatter
-/// is drawn for the hero and weighed over all wavelengths (thesis (4.14), pdf_tr). Absorption only
-/// dims: if it took part in the choice, coloured absorption would tear the wavelengths apart.
-bool Flights::through_homogeneous(Flight& f, float length, const PathView& path) {
-  ++counters_.media_steps;
-  const Spectrumf extinction = f.scattering + f.absorption;
-  if (f.errand == Errand::Shadow) {
-    // A path would have had to decide not to scatter, with this very probability.
-    f.carried.beta *= transmittance(extinction, length);
-    f.carried.pdf *= transmittance(f.scattering, length);
-    if (f.carried.beta.is_black()) f.end = End::Lost;
-    return f.end != End::Flying;
-  }
-  if (!f.emission.is_black()) {
-    Spectrumf optical;  // integral of the transmittance over the stretch
-    for (int k = 0; k < kWavelengths; ++k)
-      optical[k] =
-          extinction[k] > 0 ? -std::expm1(-extinction[k] * length) / extinction[k] : length;
-    *path.radiance += f.carried.weighted(0, world_.estimator) * f.emission * optical;
-  }
-  const float hero = f.scattering[0];
-  const float s = hero > 0 ? -std::log1p(-random(f, path)) / hero : kInfinity;
-  if (s < length) {
-    f.carried.happened(f.scattering * transmittance(extinction, s),
-                       f.scattering * transmittance(f.scattering, s));
-    f.carried.rescale();
-    f.t += s;
-    f.end = End::Medium;
-    return true;
-  }
-  f.carried.happened(transmittance(extinction, length), transmittance(f.scattering, length));
-  f.carried.rescale();
-  if (f.carried.beta.is_black()) f.end = End::Lost;
-  return f.end != End::Flying;
+/// Goes on where the surface that was met is not there, being inside of what has priority.
+void Flights::pass_false_surface(Flight& f, const Hit& hit) {
+  const SurfacePoint s = surface_of(world_.scene, hit, f.origin, f.direction);
+  world_.cross(f.media, hit.object, dot(s.geometric_normal, Vec3d(f.direction)) < 0);
+  f.forget_media();
+  ++f.next;
 }
 
 /// Runs the script that a group of flights waits for, and lets each act on its answer.
@@ -224,7 +208,7 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
   points_.clear();
   for (const Request& r : requests) {
     Flight& f = flights[r.flight];
-    const Hit* hit = need == Need::Crossing ? &crossings_[r.flight].hits[f.next] : nullptr;
+    const Hit* hit = need == Need::Crossing ? &crossings_[f.crossings].hits[f.next] : nullptr;
     points_.push_back(script_point(world_, f, hit, paths[f.path]));
   }
   lanes_.clear();
@@ -233,23 +217,14 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
 
   if (need != Need::Crossing) {
     const vm::Descriptor& d = *world_.scene.volumes[requests[0].key].script;
-    const CompiledDescriptor& volume = world_.compiled.of(&d);
     scripts_.run(d, EntryKind::Shade, lanes_);
     for (int i = 0; i < n; ++i) {
       Flight& f = flights[requests[i].flight];
-      f.medium_object = f.media.current();
-      const bool lost = scripts_.given_up(i);
-      f.scattering = lost ? Spectrumf() : not_negative(scripts_.spectrum(d.shade.scattering, i));
-      f.absorption = lost ? Spectrumf() : not_negative(scripts_.spectrum(d.shade.absorption, i));
-      f.emission = lost ? Spectrumf() : not_negative(scripts_.spectrum(d.shade.emission, i));
-      if (volume.emits && !lost) {
-        // The shape of emission in a volume is a phase function, 1 for the isotropic one.
-        params_.resize(std::max(1, volume.shade_emission.param_count()));
-        scripts_.params(d.shade.emission_material, i, params_.data());
-        f.emission *=
-            materials::volume_emission_shape(volume.shade_emission, params_.data(), -f.direction);
-      }
-      if (need == Need::Collision) collide(f, paths[f.path]);
+      const Coefficients c = coefficients(d, f, i);
+      if (need == Need::Collision)
+        collide(f, c, paths[f.path]);
+      else
+        add_even(f, c, paths[f.path]);
     }
     return;
   }
@@ -257,8 +232,8 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
   const Surface& surface = world_.scene.surfaces[requests[0].key];
   if (!surface.script) {  // only an invisible one comes here
     for (int i = 0; i < n; ++i)
-      cross(flights[requests[i].flight], crossings_[requests[i].flight], points_[i], Spectrumf(),
-            Spectrumf(), paths[flights[requests[i].flight].path]);
+      cross(flights[requests[i].flight], points_[i], Spectrumf(), Spectrumf(),
+            paths[flights[requests[i].flight].path]);
     return;
   }
   const vm::Descriptor& d = *surface.script;
@@ -277,61 +252,22 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
   for (int i = 0; i < n; ++i) {
     Flight& f = flights[requests[i].flight];
     const bool lost = scripts_.given_up(i);
-    cross(f, crossings_[requests[i].flight], points_[i],
+    cross(f, points_[i],
           lost ? Spectrumf(1.0f) : unit_clamped(scripts_.spectrum(d.pass.scattering, i)),
           lost ? Spectrumf() : unit_clamped(scripts_.spectrum(d.pass.absorption, i)),
           paths[f.path]);
   }
 }
 
-/// A tentative collision of delta tracking (a path) or ratio tracking (a shadow ray): real, or
-/// with the fictitious matter that fills the medium up to its majorant.
-void Flights::collide(Flight& f, const PathView& path) {
-  ++counters_.media_steps;
-  ++counters_.medium_samples;
-  const float majorant = f.majorant;
-  f.medium_object = -1;  // valid at this point only
-  bool denser = false;
-  Spectrumf scattered, nothing;  // probabilities, per wavelength; what is left is absorbed
-  for (int k = 0; k < kWavelengths; ++k) {
-    const float extinction = f.scattering[k] + f.absorption[k];
-    // Beyond the bound that the author stated, the medium is as dense as the bound.
-    denser |= extinction > majorant * 1.00001f;  // rounding is no news
-    const float held = extinction > majorant ? majorant / extinction : 1;
-    scattered[k] = f.scattering[k] * held / majorant;
-    nothing[k] = std::max(0.0f, 1 - extinction * held / majorant);
-  }
-  counters_.denser_samples += denser;
-  // As in a homogeneous medium a path decides on scattering alone, and absorption dims it.
-  const Spectrumf p_on = Spectrumf(1.0f) - scattered;
-  if (f.errand == Errand::Shadow) {
-    f.carried.beta *= nothing;
-    f.carried.pdf *= p_on;
-    if (f.carried.beta.is_black()) f.end = End::Lost;
-    return;
-  }
-  if (!f.emission.is_black())
-    *path.radiance += f.carried.weighted(0, world_.estimator) * f.emission * (1 / majorant);
-  if (random(f, path) < scattered[0]) {
-    f.carried.happened(scattered, scattered);
-    f.end = End::Medium;
-  } else {
-    f.carried.happened(nothing, p_on);
-    if (f.carried.beta.is_black()) f.end = End::Lost;
-  }
-  f.carried.rescale();
-}
-
 /// A semi-transparent surface: scattered there, or straight through with (1 - s)(1 - a).
-void Flights::cross(Flight& f, const Crossings& crossings, const ScriptPoint& point,
-                    const Spectrumf& scattering, const Spectrumf& absorption,
-                    const PathView& path) {
+void Flights::cross(Flight& f, const ScriptPoint& point, const Spectrumf& scattering,
+                    const Spectrumf& absorption, const PathView& path) {
   const Spectrumf one(1.0f);
   const Spectrumf through = (one - scattering) * (one - absorption);
   const Spectrumf either = scattering + through;
   Spectrumf p_through;
   for (int k = 0; k < kWavelengths; ++k) p_through[k] = either[k] > 0 ? through[k] / either[k] : 0;
-  const Hit& hit = crossings.hits[f.next];
+  const Hit& hit = crossings_[f.crossings].hits[f.next];
   const bool inwards = dot(point.surface.geometric_normal, point.view) > 0;
   if (f.errand == Errand::Shadow) {
     f.carried.beta *= through;
@@ -357,7 +293,7 @@ void Flights::cross(Flight& f, const Crossings& crossings, const ScriptPoint& po
     f.carried.rescale();
   }
   world_.cross(f.media, hit.object, inwards);
-  f.medium_object = -1;
+  f.forget_media();
   ++f.next;
 }
 

@@ -39,6 +39,12 @@ enum class End : std::uint8_t {
   Lost,     ///< absorbed or blocked
 };
 
+/// What a volume does to light, for each wavelength.
+struct Coefficients {
+  Spectrumf scattering, absorption;  ///< 1/m
+  Spectrumf emission;                ///< W m^-3 sr^-1 nm^-1
+};
+
 struct Flight {
   Vec3f origin, direction;
   int path = 0;  ///< whose it is
@@ -51,11 +57,25 @@ struct Flight {
   int next = 0;                ///< crossing to come
   std::uint32_t step = 0;      ///< counts its random numbers
   std::uint32_t stream = 0;    ///< tells them from those of other flights of the path
+  double light_density = 0;    ///< of a shadow ray: with which its light was drawn, 1/sr
   Media media;
   Carried carried;
-  int medium_object = -1;                      ///< whose coefficients these are
-  float majorant = 0;                          ///< at the tentative collision it has come to, 1/m
-  Spectrumf scattering, absorption, emission;  ///< 1/m, 1/m, W m^-3 sr^-1 nm^-1
+  int medium = -1;     ///< object whose volume is asked, or scattered it
+  float majorant = 0;  ///< at the tentative collision it has come to, 1/m
+  int known = 0;       ///< how many of the even volumes here have been asked
+  Coefficients even;   ///< the sum of those
+  /// Of the even volumes the one that is to scatter, drawn by the hero's share, and what it does.
+  int drawn = -1;
+  Spectrumf drawn_scattering;
+
+  int crossings = -1;  ///< where Flights keeps what lies on its way; -1 before it began
+
+  /// In other media from here on.
+  void forget_media() {
+    known = 0;
+    even = {};
+    drawn = -1;
+  }
 };
 
 /// What flights need to know of the paths they belong to.
@@ -75,8 +95,10 @@ class Flights {
  public:
   Flights(const World& world, Scripts& scripts) : world_(world), scripts_(scripts) {}
 
-  /// Lets every flight go on until it ends.
-  void fly(std::vector<Flight>& flights, const std::vector<PathView>& paths);
+  /// Lets flights go on until no more than the share `left` of those that fly at the start still
+  /// do: they come along the next time, so that scripts are run on full batches. What has ended is
+  /// not touched.
+  void fly(std::vector<Flight>& flights, const std::vector<PathView>& paths, double left = 0);
 
   const FlightCounters& counters() const { return counters_; }
 
@@ -88,14 +110,20 @@ class Flights {
     int key;  ///< volume or surface to ask
   };
 
+  void begin(Flight& f);
   void trace(Flight& f, Crossings& crossings, float from);
+  void advance_all(std::vector<Flight>& flights, const std::vector<PathView>& paths);
   Need advance(Flight& f, Crossings& crossings, const PathView& path);
-  bool through_homogeneous(Flight& f, float length, const PathView& path);
+  bool through_even(Flight& f, float length, const PathView& path);
   void answer(std::vector<Flight>& flights, const std::vector<PathView>& paths,
               std::span<const Request> requests);
-  void collide(Flight& f, const PathView& path);
-  void cross(Flight& f, const Crossings& crossings, const ScriptPoint& point,
-             const Spectrumf& scattering, const Spectrumf& absorption, const PathView& path);
+  bool along_media(Flight& f, float to, const PathView& path, Need& need);
+  Coefficients coefficients(const vm::Descriptor& d, const Flight& f, int lane);
+  void add_even(Flight& f, const Coefficients& c, const PathView& path);
+  void collide(Flight& f, const Coefficients& c, const PathView& path);
+  void pass_false_surface(Flight& f, const Hit& hit);
+  void cross(Flight& f, const ScriptPoint& point, const Spectrumf& scattering,
+             const Spectrumf& absorption, const PathView& path);
   void add_crossing_emission(const Flight& f, const ScriptPoint& point, const Spectrumf& emitted,
                              const PathView& path);
   float random(Flight& f, const PathView& path) const {
@@ -106,6 +134,7 @@ class Flights {
   Scripts& scripts_;
   FlightCounters counters_;
   std::vector<Crossings> crossings_;
+  std::vector<int> free_crossings_;
   std::vector<int> flying_;
   std::vector<Request> requests_;
   std::vector<ScriptPoint> points_;

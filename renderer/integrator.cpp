@@ -23,6 +23,12 @@ constexpr int kFirstRoulette = 3;
 /// what it is again outside, so a path that carries a third may have lost nothing.
 constexpr float kSafeContribution = 1.0f / 3;
 
+/// Rays that fly together, at least: enough to fill batches though scripts differ.
+constexpr std::size_t kTogether = 2048;
+
+/// Share of them that is left for the next time, lest few long ways hold up the rest.
+constexpr double kLeftFlying = 0.5;
+
 /// `matte`: what a surface of the scene scatters by, and the default of a script that gave up.
 const materials::Layout& matte_layout() {
   static const materials::Layout layout(
@@ -86,69 +92,120 @@ Integrator::Integrator(const World& world)
     : world_(world), scripts_(world.compiled), flights_(world, scripts_) {}
 
 void Integrator::trace(std::span<const PixelSample> samples, std::span<FilmSample> stream) {
-  start(samples, stream);
-  while (!now_.empty()) {
-    flights_.fly(now_, views_);
-    gather();
+  paths_.clear();
+  paths_.reserve(samples.size());  // views point into it
+  views_.clear();
+  now_.clear();
+  for (;;) {
+    while (paths_.size() < samples.size() && now_.size() < kTogether)
+      start(samples[paths_.size()], stream[paths_.size()]);
+    if (now_.empty()) break;
+    flights_.fly(now_, views_, kLeftFlying);
     next_.clear();
     shadows_.clear();
     connections_.clear();
+    gather();
+    if (world_.nested) ask_surroundings();
     for (std::size_t first = 0, last = 0; first < vertices_.size(); first = last) {
       while (last < vertices_.size() && last - first < std::size_t(scripts_.width()) &&
              vertices_[last].kind == vertices_[first].kind)
         ++last;
       shade(std::span(vertices_).subspan(first, last - first));
     }
-    light_connections();
+    ask_emitters();
+    send_shadow_rays();
     std::swap(now_, next_);
   }
   for (std::size_t i = 0; i < samples.size(); ++i)
-    stream[i].xyz = paths_[i].cluster.xyz(paths_[i].radiance);
+    stream[i].xyz = paths_[i].cluster.xyz(paths_[i].radiance + paths_[i].lit);
 }
 
-/// Draws wavelengths and camera rays.
-void Integrator::start(std::span<const PixelSample> samples, std::span<FilmSample> stream) {
-  paths_.assign(samples.size(), {});
-  views_.clear();
-  now_.clear();
-  for (int i = 0; i < int(samples.size()); ++i) {
-    const PixelSample& s = samples[i];
-    Path& p = paths_[i];
-    p.sampler = Sampler(world_.seed, s.x, s.y, std::uint64_t(s.sample), world_.generator);
-    p.cluster = sample_cluster(cluster_number(p.sampler(kWavelength)));
-    FilmSample& point = stream[i];
-    point.x = s.x + double(p.sampler(kFilmX));
-    point.y = s.y + double(p.sampler(kFilmY));
-    point.number = std::uint32_t(s.sample);
-    views_.push_back({&p.cluster, &p.sampler, &p.radiance, world_.camera.pixel_angle()});
-    now_.push_back(camera_flight(world_, i, p.sampler, point.x, point.y));
-  }
+/// Draws wavelengths and the camera ray of a new path.
+void Integrator::start(const PixelSample& s, FilmSample& point) {
+  const int i = int(paths_.size());
+  Path& p = paths_.emplace_back();
+  p.sampler = Sampler(world_.seed, s.x, s.y, std::uint64_t(s.sample), world_.generator);
+  p.cluster = sample_cluster(cluster_number(p.sampler(kWavelength)));
+  point.x = s.x + double(p.sampler(kFilmX));
+  point.y = s.y + double(p.sampler(kFilmY));
+  point.number = std::uint32_t(s.sample);
+  views_.push_back({&p.cluster, &p.sampler, &p.radiance, world_.camera.pixel_angle()});
+  now_.push_back(camera_flight(world_, i, p.sampler, point.x, point.y));
 }
 
-/// Adds what the environment sends along rays that left the scene, and orders the rest by what
-/// has to be run for them.
+/// Adds what shadow rays found and what the environment sends along rays that left the scene, and
+/// orders the rest by what has to be run for them. What is not done stays for the next time.
 void Integrator::gather() {
+  for (const Flight& f : now_) {
+    if (f.errand != Errand::Shadow || f.end == End::Flying) continue;
+    Path& p = paths_[f.path];
+    p.asks = false;
+    if (f.end == End::Free) p.lit += f.carried.weighted(f.light_density, world_.estimator);
+  }
   vertices_.clear();
+  arrived_.clear();
   for (const Flight& f : now_) {
     Path& p = paths_[f.path];
-    if (f.end == End::Free) {
+    const bool vertex = f.end == End::Surface || f.end == End::Medium;
+    if (f.end == End::Flying || (vertex && p.asks)) {
+      next_.push_back(f);
+    } else if (vertex) {
+      const int kind = f.end == End::Medium ? int(world_.scene.surfaces.size()) +
+                                                  world_.scene.objects[f.medium].volume
+                                            : world_.scene.objects[f.hit.object].surface;
+      arrived_.push_back({kind, &f});
+    } else if (f.end == End::Free && f.errand == Errand::Path) {
       const Vec3d d(f.direction);
       const Spectrumf weight =
           f.carried.weighted(world_.lights.pdf_environment(Vec3d(f.origin), d), world_.estimator);
       p.radiance += weight * world_.lights.environment(d, p.cluster);
-    } else if (f.end == End::Surface || f.end == End::Medium) {
-      const bool medium = f.end == End::Medium;
-      const int kind = medium ? int(world_.scene.surfaces.size()) +
-                                    world_.scene.objects[f.media.current()].volume
-                              : world_.scene.objects[f.hit.object].surface;
-      Vertex v{&f, kind, script_point(world_, f, medium ? nullptr : &f.hit, views_[f.path])};
-      p.travelled += f.t;
-      v.point.cone = world_.camera.pixel_angle() * p.travelled;
-      vertices_.push_back(v);
     }
   }
-  std::stable_sort(vertices_.begin(), vertices_.end(),
-                   [](const Vertex& a, const Vertex& b) { return a.kind < b.kind; });
+  std::stable_sort(arrived_.begin(), arrived_.end(),
+                   [](const Arrived& a, const Arrived& b) { return a.kind < b.kind; });
+  for (const auto& [kind, f] : arrived_) {
+    const Hit* hit = f->end == End::Surface ? &f->hit : nullptr;
+    Path& p = paths_[f->path];
+    Vertex v{f, kind, script_point(world_, *f, hit, views_[f->path]), Spectrumf(1.0f)};
+    p.travelled += f->t;
+    v.point.cone = world_.camera.pixel_angle() * p.travelled;
+    vertices_.push_back(v);
+  }
+}
+
+/// Nested dielectrics: a surface that lies in another object has its index over that object's,
+/// which is asked for at the very point.
+void Integrator::ask_surroundings() {
+  nested_.clear();
+  for (Vertex& v : vertices_) {
+    if (v.from->end != End::Surface) continue;
+    const int object = v.from->hit.object;
+    if (world_.scene.objects[object].priority == 0) continue;
+    const int around = surrounding(world_.scene, v.from->media, object);
+    if (around < 0) continue;
+    const Surface& s = world_.surface_of_object(around);
+    if (s.script && world_.compiled.of(s.script).index) nested_.push_back({&v, around});
+  }
+  const auto surface = [&](const Nested& n) { return world_.scene.objects[n.around].surface; };
+  std::stable_sort(nested_.begin(), nested_.end(),
+                   [&](const Nested& a, const Nested& b) { return surface(a) < surface(b); });
+  for (std::size_t first = 0, last = 0; first < nested_.size(); first = last) {
+    outside_points_.clear();
+    while (last < nested_.size() && last - first < std::size_t(scripts_.width()) &&
+           surface(nested_[last]) == surface(nested_[first])) {
+      const Nested& n = nested_[last++];
+      outside_points_.push_back(n.vertex->point);
+      outside_points_.back().object = &world_.scene.objects[n.around];
+    }
+    lanes_.clear();
+    for (const ScriptPoint& p : outside_points_) lanes_.push_back(&p);
+    const vm::Descriptor& d = *world_.scene.surfaces[surface(nested_[first])].script;
+    scripts_.run(d, EntryKind::Shade, lanes_);
+    for (std::size_t i = first; i < last; ++i)
+      if (!scripts_.given_up(int(i - first)))
+        nested_[i].vertex->outside =
+            scripts_.spectrum(*world_.compiled.of(&d).index, int(i - first));
+  }
 }
 
 void Integrator::add_emission(const Vertex& v, const Spectrumf& emitted) {
@@ -201,6 +258,7 @@ void Integrator::shade(std::span<const Vertex> group) {
       scatter(v, {matte_layout(), params, false, shading_frame(s, {0, 0}, v.point.view)});
       continue;
     }
+    if (world_.nested) immerse(c.material, v.outside, params);
     if (c.emits)
       add_emission(v, scripted_emission(world_.compiled, scripts_, *d, EntryKind::Shade, i, s,
                                         v.point.view, scratch_));
@@ -217,7 +275,7 @@ void Integrator::follow(Flight& f, const Vertex& v, Vec3d direction) const {
   const double in = dot(direction, n);
   if (in * dot(v.point.view, n) >= 0) return;
   world_.cross(f.media, v.from->hit.object, in < 0);
-  f.medium_object = -1;
+  f.forget_media();
 }
 
 /// Lights a vertex, and sends the path on in a direction drawn for the hero.
@@ -262,7 +320,7 @@ void Integrator::connect(const Vertex& v, const Scatterer& s) {
   if (!(light.pdf > 0)) return;
   Flight f = *v.from;
   if (!s.medium) follow(f, v, light.direction);
-  if (const int inside = f.media.current(); inside >= 0 && world_.sealed[inside]) return;
+  if (world_.sealed_in(f.media)) return;
   const Scatterer::Sampled towards = s.evaluate(v.point, light.direction);
   if (towards.f.is_black()) return;
 
@@ -294,12 +352,13 @@ void Integrator::connect(const Vertex& v, const Scatterer& s) {
   f.t = 0;
   f.step = 0;
   f.stream = 2 * std::uint32_t(p.depth) + 1;
+  f.light_density = light.pdf;
   connections_.push_back({int(shadows_.size()), light});
   shadows_.push_back(f);
 }
 
-/// Asks scripted emitters what they radiate, lets the shadow rays fly, and adds what arrives.
-void Integrator::light_connections() {
+/// Asks scripted emitters what they radiate towards the vertices that drew them.
+void Integrator::ask_emitters() {
   std::vector<Connection> asked;
   for (const Connection& c : connections_)
     if (c.light.object != kEnvironment && world_.surface_of_object(c.light.object).script)
@@ -337,20 +396,14 @@ void Integrator::light_connections() {
       shadows_[asked[i].flight].carried.beta *= emitted;
     }
   }
-  std::vector<double> densities(shadows_.size());
-  for (const Connection& c : connections_) densities[c.flight] = c.light.pdf;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < shadows_.size(); ++i) {
-    if (shadows_[i].carried.beta.is_black()) continue;
-    shadows_[kept] = shadows_[i];
-    densities[kept++] = densities[i];
+}
+
+void Integrator::send_shadow_rays() {
+  for (const Flight& f : shadows_) {
+    if (f.carried.beta.is_black()) continue;
+    paths_[f.path].asks = true;
+    next_.push_back(f);
   }
-  shadows_.resize(kept);
-  flights_.fly(shadows_, views_);
-  for (std::size_t i = 0; i < kept; ++i)
-    if (shadows_[i].end == End::Free)
-      paths_[shadows_[i].path].radiance +=
-          shadows_[i].carried.weighted(densities[i], world_.estimator);
 }
 
 /// Russian roulette by the mean contribution that the path still carries. It is the same whatever

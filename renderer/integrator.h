@@ -2,8 +2,9 @@
 #pragma once
 
 /// \file
-/// Path tracing after thesis 4.4.1, in wavefronts: all paths of a chunk take each step together,
-/// so that hits on one descriptor are shaded in batches. One Integrator is one thread's.
+/// Path tracing after thesis 4.4.1, in wavefronts: many paths take each step together, so that hits
+/// on one descriptor are shaded in batches. New paths begin as others end, and what takes long on
+/// its way does not hold up the rest. One Integrator is one thread's.
 
 #include <span>
 #include <vector>
@@ -32,7 +33,10 @@ class Integrator {
   struct Path {
     Sampler sampler;
     Cluster cluster;
-    Spectrumf radiance;
+    Spectrumf radiance;   ///< that the path has met
+    Spectrumf lit;        ///< that shadow rays have found
+    bool asks = false;    ///< a shadow ray is on its way: the next vertex waits for it, so that
+                          ///< sums are made in one order
     float travelled = 0;  ///< m
     int depth = 0;        ///< scattering events so far
   };
@@ -41,22 +45,35 @@ class Integrator {
     const Flight* from;
     int kind;  ///< surfaces first, then volumes: what to run
     ScriptPoint point;
+    Spectrumf outside{1.0f};  ///< index of what its surface lies in
   };
   /// What scatters at a vertex: a Bsdf in its frame or a Phase in world space.
   struct Scatterer;
+  /// A flight that came to a vertex.
+  struct Arrived {
+    int kind;  ///< as in Vertex
+    const Flight* flight;
+  };
+  /// A vertex whose surface lies in something that bends light too.
+  struct Nested {
+    Vertex* vertex;
+    int around;  ///< object
+  };
   /// Light drawn for a vertex, on its way to be asked for and shadowed.
   struct Connection {
     int flight;  ///< in shadows_
     LightSample light;
   };
 
-  void start(std::span<const PixelSample> samples, std::span<FilmSample> stream);
+  void start(const PixelSample& sample, FilmSample& stream);
   void gather();
+  void ask_surroundings();
   void shade(std::span<const Vertex> group);
   void scatter(const Vertex& v, const Scatterer& s);
   void follow(Flight& f, const Vertex& v, Vec3d direction) const;
   void connect(const Vertex& v, const Scatterer& s);
-  void light_connections();
+  void ask_emitters();
+  void send_shadow_rays();
   bool survives(Path& p, Carried& c, int bounce);
   void add_emission(const Vertex& v, const Spectrumf& emitted);
 
@@ -66,9 +83,11 @@ class Integrator {
   std::vector<Path> paths_;
   std::vector<PathView> views_;
   std::vector<Flight> now_, next_, shadows_;
+  std::vector<Arrived> arrived_;
   std::vector<Vertex> vertices_;
   std::vector<Connection> connections_;
-  std::vector<ScriptPoint> light_points_;
+  std::vector<Nested> nested_;
+  std::vector<ScriptPoint> light_points_, outside_points_;
   std::vector<const ScriptPoint*> lanes_;
   std::vector<float> params_, scratch_;
 };

@@ -25,6 +25,12 @@ std::uint32_t asked_after(std::uint32_t samples) {
   return samples + std::max(8u, octave / 4);
 }
 
+/// Where paths meet media many of them are worked on together, for full batches; but every thread
+/// is to have some turns of a picture.
+int chunks_at_once(std::int64_t tiles, int threads) {
+  return int(std::clamp<std::int64_t>(tiles / (8 * threads), 1, 8));
+}
+
 /// `tile`, and the pixels around it that its samples reach.
 Rect reached(const FilmSums& film, Rect tile) {
   const int margin = int(std::ceil(Filter(film.filter()).radius() - 0.5));
@@ -58,12 +64,12 @@ Rendered Job::run() {
   const int threads = int(std::min<std::int64_t>(wanted, chunks_));
   {
     std::vector<std::jthread> workers;
-    running_ = threads;
+    running_ = threads_ = threads;
     for (int i = 0; i < threads; ++i) workers.emplace_back([this] { work(); });
     watch();
   }
   report_.seconds = seconds();
-  report_.threads = threads;
+  report_.threads = threads_;
   return finish();
 }
 
@@ -74,31 +80,37 @@ bool Job::ended() const {
          (options_.stop && options_.stop->load(std::memory_order_relaxed));
 }
 
-/// The next tile and pass with samples that are missing. Waits at the end of a round.
-std::optional<Job::Chunk> Job::next() {
+/// The next tiles and passes with samples that are missing, or nothing. Waits at the end of a
+/// round.
+std::vector<Job::Chunk> Job::next() {
   std::unique_lock lock(schedule_lock_);
-  for (;;) {
+  std::vector<Chunk> taken;
+  while (taken.empty()) {
     if (ended()) return {};
-    if (next_chunk_ < round_end_) {
-      const std::int64_t tiles = std::int64_t(film_->done.size());
+    const std::int64_t tiles = std::int64_t(film_->done.size());
+    const int most = world_.plain ? 1 : chunks_at_once(tiles, threads_);
+    while (next_chunk_ < round_end_ && int(taken.size()) < most) {
       const std::int64_t number = next_chunk_++;
       ++in_flight_;
       const SampleSet::Range pass = pass_range(first_pass_ + int(number / tiles));
-      return Chunk{int(number % tiles),
-                   {std::max(pass.first, std::uint32_t(options_.first_sample)),
-                    std::min(pass.second, std::uint32_t(options_.samples))}};
+      taken.push_back({int(number % tiles),
+                       {std::max(pass.first, std::uint32_t(options_.first_sample)),
+                        std::min(pass.second, std::uint32_t(options_.samples))}});
     }
+    if (!taken.empty()) break;
     if (next_chunk_ >= chunks_) return {};
     if (in_flight_ == 0)
       begin_round();
     else
       round_over_.wait(lock);
   }
+  return taken;
 }
 
-void Job::done() {
+void Job::done(int chunks) {
   const std::scoped_lock lock(schedule_lock_);
-  if (--in_flight_ == 0) round_over_.notify_all();
+  in_flight_ -= chunks;
+  if (in_flight_ == 0) round_over_.notify_all();
 }
 
 /// All threads have come to the same sample: the error is asked for here and nowhere else, so the
@@ -130,24 +142,31 @@ void Job::work() {
   Integrator integrator(world_);
   std::vector<PixelSample> wanted;
   std::vector<FilmSample> samples;
+  std::vector<std::size_t> ends;  // of each chunk's samples
   FilmSums part(options_.width, options_.height, film_->sums.filter(), {});
   std::uint64_t faults = 0;
-  while (const std::optional<Chunk> c = next()) {
+  for (std::vector<Chunk> chunks = next(); !chunks.empty(); chunks = next()) {
     wanted.clear();
-    const Rect tile = film_->tile(c->tile);
-    for (int y = tile.y0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x)
-        for (std::uint32_t s = c->samples.first; s < c->samples.second; ++s)
-          if (!was_there(c->tile, s)) wanted.push_back({x, y, int(s)});
+    ends.clear();
+    for (const Chunk& c : chunks) {
+      const Rect tile = film_->tile(c.tile);
+      for (int y = tile.y0; y < tile.y1; ++y)
+        for (int x = tile.x0; x < tile.x1; ++x)
+          for (std::uint32_t s = c.samples.first; s < c.samples.second; ++s)
+            if (!was_there(c.tile, s)) wanted.push_back({x, y, int(s)});
+      ends.push_back(wanted.size());
+    }
     samples.resize(wanted.size());
     integrator.trace(wanted, samples);
-    part.restart(reached(film_->sums, tile));
-    add(*c, part, samples);
+    for (std::size_t i = 0, first = 0; i < chunks.size(); first = ends[i++]) {
+      part.restart(reached(film_->sums, film_->tile(chunks[i].tile)));
+      add(chunks[i], part, std::span(samples).subspan(first, ends[i] - first));
+    }
     paths_done_ += samples.size();
     const std::uint64_t all = integrator.scripts().fault_lanes();
     if ((fault_lanes_ += all - faults) > kMaxFaultLanes) too_many_faults_ = true;
     faults = all;
-    done();
+    done(int(chunks.size()));
   }
   const std::scoped_lock lock(report_lock_);
   account(integrator);
@@ -156,7 +175,7 @@ void Job::work() {
 }
 
 /// A chunk is in the film with all its samples or not at all.
-void Job::add(const Chunk& chunk, FilmSums& part, const std::vector<FilmSample>& samples) {
+void Job::add(const Chunk& chunk, FilmSums& part, std::span<const FilmSample> samples) {
   std::vector<std::pair<PixelSample, SampleFate>> dropped;
   for (const FilmSample& s : samples)
     if (const SampleFate fate = part.add(s); fate != SampleFate::Added)

@@ -35,10 +35,10 @@ class Job {
 
   void work();
   bool was_there(int tile, std::uint32_t sample) const;
-  std::optional<Chunk> next();
-  void done();
+  std::vector<Chunk> next();
+  void done(int chunks);
   void begin_round();
-  void add(const Chunk& chunk, FilmSums& part, const std::vector<FilmSample>& samples);
+  void add(const Chunk& chunk, FilmSums& part, std::span<const FilmSample> samples);
   void drop(const PixelSample& s, SampleFate fate);
   bool ended() const;
   bool out_of_time() const;
@@ -69,6 +69,7 @@ class Job {
   std::atomic<bool> too_many_faults_{false}, good_{false};
   std::mutex report_lock_;
   std::condition_variable finished_;
+  int threads_ = 1;  ///< fixed before they begin
   int running_ = 0;
   double shown_error_ = 0, error_shown_at_ = 0, saved_at_ = 0;
   Report report_;

@@ -94,7 +94,7 @@ class Gaze {
         l.radiance += arriving(f) * world_.lights.environment(Vec3d(f.direction), l.cluster);
       if (f.end != End::Surface && f.end != End::Medium) continue;
       const bool medium = f.end == End::Medium;
-      l.kind = medium ? surfaces() + world_.scene.objects[f.media.current()].volume
+      l.kind = medium ? surfaces() + world_.scene.objects[f.medium].volume
                       : world_.scene.objects[f.hit.object].surface;
       vertices.push_back({&f, script_point(world_, f, medium ? nullptr : &f.hit, views_[f.path])});
       l.position = vertices.back().point.surface.position;

@@ -34,9 +34,32 @@ bool semi_transparent(const SceneData& scene, const Compiled& compiled, const Ob
   return s.script ? compiled.of(s.script).semi_transparent : s.fixed.invisible;
 }
 
+bool may_be_hidden(const SceneData& scene, const Object& o) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [&](const Object& other) { return other.priority > o.priority; }) &&
+         tracked(o);
+}
+
+Filling World::filling(const Media& media) const {
+  int highest = 0;
+  for (int i = 0; i < media.count; ++i)
+    highest = std::max(highest, scene.objects[media.objects[i]].priority);
+  Filling f;
+  for (int i = 0; i < media.count; ++i) {
+    const int object = media.objects[i];
+    const Object& o = scene.objects[object];
+    if (o.priority < highest || o.volume < 0) continue;
+    if (volume_of_object(object).homogeneous)
+      f.even[f.even_count++] = object;
+    else
+      f.varied[f.varied_count++] = object;
+  }
+  return f;
+}
+
 bool sealed(const SceneData& scene, const Compiled& compiled, int i) {
   const Object& o = scene.objects[i];
-  if (o.volume < 0 || semi_transparent(scene, compiled, o)) return false;
+  if (!tracked(o) || semi_transparent(scene, compiled, o) || may_be_hidden(scene, o)) return false;
   const Bounds box = bounds(o.shape);
   for (const Object& other : scene.objects)
     if (emits(scene, compiled, other) && overlap(box, bounds(other.shape))) return false;

@@ -51,11 +51,16 @@ Result<Rendered> render(const vm::Program& program, const Scene& scene,
   Result<Findings> findings = probe(data, compiled);
   if (!findings) return findings.error();
 
-  std::vector<bool> collected;
-  bool plain = true;
+  std::vector<bool> passes, collected;
+  bool plain = true, nested = false;
   for (const Object& o : data.objects) {
-    collected.push_back(semi_transparent(data, compiled, o));
-    plain &= !collected.back() && o.volume < 0;
+    passes.push_back(semi_transparent(data, compiled, o));
+    collected.push_back(passes.back() || may_be_hidden(data, o));
+    nested |= o.priority > 0;
+    plain &= !collected.back() && !tracked(o);
+    if (o.priority > 0 && emits(data, compiled, o))
+      return Error{data.name, "an object with a `priority` emits light",
+                   "a light takes no other object's place: leave its `priority` out"};
   }
   const Accel accel(data, collected);
   const Lights lights(data, findings->radiance);
@@ -66,7 +71,9 @@ Result<Rendered> render(const vm::Program& program, const Scene& scene,
               CameraRays(data.camera, options.width, options.height),
               {},
               {},
+              std::move(passes),
               plain,
+              nested,
               options.seed,
               options.max_depth,
               std::move(findings->majorants),
@@ -75,7 +82,7 @@ Result<Rendered> render(const vm::Program& program, const Scene& scene,
   for (int i = 0; i < int(data.objects.size()); ++i)
     world.sealed.push_back(sealed(data, compiled, i));
   for (int i = 0; i < int(data.objects.size()); ++i)
-    if (data.objects[i].volume >= 0 && contains(data.objects[i].shape, data.camera.position))
+    if (tracked(data.objects[i]) && contains(data.objects[i].shape, data.camera.position))
       world.camera_media.enter(i);
   Rendered rendered = Job(world, options).run();
   if (options.layers)

@@ -49,6 +49,7 @@ struct Object {
   int surface = 0;         ///< index into SceneData::surfaces
   int volume = -1;         ///< index into SceneData::volumes, or none
   bool test = false;       ///< an object under test
+  int priority = 0;        ///< over what overlaps it (renderer/media.h); 0: none
   double displace = 0;     ///< edge of the triangles that `height` moves, m; 0: it bumps only
   bool displaced = false;  ///< `shape` has been moved by `height` already
 };

@@ -113,7 +113,7 @@ class Parser {
   void object(const Node& n) {
     std::vector<std::string> keys = shape_keys();
     for (const char* key : {"name", "instance", "translate", "rotate", "scale", "surface", "volume",
-                            "displace", "test"})
+                            "displace", "priority", "test"})
       keys.emplace_back(key);
     n.keys(keys);
     if (n.has("instance"))
@@ -136,6 +136,12 @@ class Parser {
     bind(n, o);
     if (o.volume >= 0 && open(o.shape))
       n.fail("a volume needs a closed object", "a sphere, a box, or a closed mesh");
+    const double priority = n.number_or("priority", 0, 0, 1000);
+    if (priority != std::floor(priority)) n["priority"].fail("a priority is a whole number");
+    o.priority = int(priority);
+    if (o.priority > 0 && open(o.shape))
+      n["priority"].fail("only a closed object has an inside to take the place of others",
+                         "a sphere, a box, or a closed mesh or lathe");
     data_.objects.push_back(std::move(o));
   }
 

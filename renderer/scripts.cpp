@@ -2,6 +2,9 @@
 #include "renderer/scripts.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
 
 namespace mms::renderer {
 namespace {
@@ -19,6 +22,17 @@ bool constant_equal(const vm::Program& p, const vm::ValueSource& v, float value)
   return v.constant && p.constants[v.index].f32 == value;
 }
 
+const vm::ValueSource* index_of(const vm::MaterialLayout& material) {
+  for (const vm::LayoutNode& node : material.nodes) {
+    const auto lobe = materials::Lobe(node.lobe);
+    const materials::Formals& formals = materials::formals(lobe);
+    if (!(materials::traits(lobe) & materials::Dispersive)) continue;
+    for (int i = 0; i < formals.count; ++i)  // no argument of such a lobe is a material
+      if (formals.index[i]) return &node.params[std::size_t(i)];
+  }
+  return nullptr;
+}
+
 bool placeless(const vm::OutputInfo& o) { return (o.variables & ~kPlaceless) == 0; }
 
 CompiledDescriptor compile(const vm::Program& p, const vm::Descriptor& d) {
@@ -31,6 +45,7 @@ CompiledDescriptor compile(const vm::Program& p, const vm::Descriptor& d) {
   c.emits = !constant_equal(p, d.shade.emission, 0);
   c.bumps =
       !constant_equal(p, d.shade.gradient[0], 0) || !constant_equal(p, d.shade.gradient[1], 0);
+  c.index = index_of(d.shade.material);
   c.constant_material = true;
   for (const vm::LayoutNode& node : d.shade.material.nodes)
     for (const vm::ValueSource& v : node.params) c.constant_material &= v.constant;
@@ -85,7 +100,7 @@ void Scripts::run(const vm::Descriptor& d, EntryKind kind,
   const vm::Entry& entry = entry_of(d, kind);
   if (!entry.function || points.empty()) return;
   const std::uint32_t variables = compiled_->of(&d).all_variables;
-  for (int lane = 0; lane < int(points.size()); ++lane) fill(*points[lane], lane, variables);
+  fill(points, variables);
   machine_->run(*compiled_->executable(), *entry.function, *inputs_, int(points.size()));
   ++counters_.runs;
   counters_.points += points.size();
@@ -129,95 +144,116 @@ void Scripts::params(const vm::MaterialLayout& layout, int lane, float* out) con
   }
 }
 
-void Scripts::put(Variable v, int lane, Vec3d value) {
-  inputs_->lanes(v, 0)[lane] = float(value.x);
-  inputs_->lanes(v, 1)[lane] = float(value.y);
-  inputs_->lanes(v, 2)[lane] = float(value.z);
+namespace {
+
+/// Change along the surface (tangent, bitangent) for a pixel's width along each axis of the
+/// picture: where its edges, carried along the ray, meet the tangent plane; a grazing ray stretches
+/// them by at most 1 / 0.05. Row by row.
+std::array<double, 4> footprint(const ScriptPoint& p) {
+  const SurfacePoint& s = p.surface;
+  const double c = dot(p.view, s.normal);
+  const double held = std::copysign(std::max(std::abs(c), 0.05), c);
+  const auto step = [&](Vec3d axis) {
+    return (axis - p.view * (dot(axis, s.normal) / held)) * p.cone;
+  };
+  const Vec3d x = step(p.screen_x), y = step(p.screen_y);
+  return {dot(x, s.tangent), dot(y, s.tangent), dot(x, s.bitangent), dot(y, s.bitangent)};
 }
 
-void Scripts::fill(const ScriptPoint& p, int lane, std::uint32_t variables) {
-  const auto put2 = [&](Variable v, const std::array<double, 2>& value) {
-    inputs_->lanes(v, 0)[lane] = float(value[0]);
-    inputs_->lanes(v, 1)[lane] = float(value[1]);
-  };
-  const auto put_spectrum = [&](Variable v, const Spectrumf& s, float scale) {
-    for (int k = 0; k < kWavelengths; ++k) inputs_->lanes(v, k)[lane] = s[k] * scale;
-  };
-  const SurfacePoint& s = p.surface;
-  const Transform& to_world = p.object->transform;
+std::array<double, 3> triple(Vec3d v) { return {v.x, v.y, v.z}; }
+
+}  // namespace
+
+/// One variable for all points: `value` makes its numbers.
+template <class F>
+void Scripts::put(Variable v, std::span<const ScriptPoint* const> points, F value) {
+  constexpr std::size_t kCount = std::tuple_size_v<decltype(value(*points[0]))>;
+  float* const first = inputs_->lanes(v, 0);
+  const std::ptrdiff_t stride = inputs_->width();
+  for (std::size_t lane = 0; lane < points.size(); ++lane) {
+    const auto numbers = value(*points[lane]);
+    for (std::size_t k = 0; k < kCount; ++k)
+      first[std::ptrdiff_t(k) * stride + std::ptrdiff_t(lane)] = float(numbers[k]);
+  }
+}
+
+void Scripts::fill(std::span<const ScriptPoint* const> points, std::uint32_t variables) {
+  using P = const ScriptPoint&;
   for (std::uint32_t left = variables; left != 0; left &= left - 1) {
     const auto v = Variable(__builtin_ctz(left));
+    const auto number = [&](auto f) {
+      put(v, points, [&](P p) { return std::array<double, 1>{double(f(p))}; });
+    };
+    const auto vector = [&](auto f) { put(v, points, [&](P p) { return triple(f(p)); }); };
+    const auto world_vector = [&](Vec3d SurfacePoint::*member) {
+      vector([&](P p) { return p.surface.*member; });
+    };
+    const auto object_step = [&](Vec3d SurfacePoint::*member) {
+      vector([&](P p) { return p.object->transform.inverse_step(p.surface.*member); });
+    };
+    const auto pair = [&](std::array<double, 2> SurfacePoint::*member) {
+      put(v, points, [&](P p) { return p.surface.*member; });
+    };
     switch (v) {
       case Variable::Position:
-        put(v, lane, s.position);
+        world_vector(&SurfacePoint::position);
         break;
       case Variable::ObjectPosition:
-        put(v, lane, to_world.inverse_point(s.position));
+        vector([](P p) { return p.object->transform.inverse_point(p.surface.position); });
         break;
       case Variable::Normal:
-        put(v, lane, s.normal);
+        world_vector(&SurfacePoint::normal);
         break;
       case Variable::GeometricNormal:
-        put(v, lane, s.geometric_normal);
+        world_vector(&SurfacePoint::geometric_normal);
         break;
       case Variable::Tangent:
-        put(v, lane, s.tangent);
+        world_vector(&SurfacePoint::tangent);
         break;
       case Variable::Bitangent:
-        put(v, lane, s.bitangent);
+        world_vector(&SurfacePoint::bitangent);
         break;
       case Variable::Uv:
-        put2(v, s.uv);
+        pair(&SurfacePoint::uv);
         break;
       case Variable::View:
-        put(v, lane, p.view);
+        vector([](P p) { return p.view; });
         break;
       case Variable::Distance:
-        inputs_->lanes(v)[lane] = float(p.distance);
+        number([](P p) { return p.distance; });
         break;
-      case Variable::Footprint: {
-        // Where the pixel's edges, carried along the ray, meet the tangent plane; a grazing ray
-        // stretches them by at most 1 / 0.05.
-        const double c = dot(p.view, s.normal);
-        const double held = std::copysign(std::max(std::abs(c), 0.05), c);
-        const auto column = [&](Vec3d axis) {
-          const Vec3d step = (axis - p.view * (dot(axis, s.normal) / held)) * p.cone;
-          return std::array<double, 2>{dot(step, s.tangent), dot(step, s.bitangent)};
-        };
-        const auto x = column(p.screen_x), y = column(p.screen_y);
-        const double m[4] = {x[0], y[0], x[1], y[1]};  // [row, column], row by row
-        for (int k = 0; k < 4; ++k) inputs_->lanes(v, k)[lane] = float(m[k]);
+      case Variable::Footprint:
+        put(v, points, footprint);
         break;
-      }
       case Variable::Time:
-        inputs_->lanes(v)[lane] = 0;
+        number([](P) { return 0; });
         break;
       case Variable::Wavelength:
-        put_spectrum(v, p.cluster->lambda.nm, 1e-9f);
+        put(v, points, [](P p) { return (p.cluster->lambda.nm * 1e-9f).v; });
         break;
       case Variable::RgbRed:
-        put_spectrum(v, p.cluster->red, 1);
+        put(v, points, [](P p) { return p.cluster->red.v; });
         break;
       case Variable::RgbGreen:
-        put_spectrum(v, p.cluster->green, 1);
+        put(v, points, [](P p) { return p.cluster->green.v; });
         break;
       case Variable::ObjectTangent:
-        put(v, lane, to_world.inverse_step(s.tangent));
+        object_step(&SurfacePoint::tangent);
         break;
       case Variable::ObjectBitangent:
-        put(v, lane, to_world.inverse_step(s.bitangent));
+        object_step(&SurfacePoint::bitangent);
         break;
       case Variable::NormalTangent:
-        put(v, lane, s.normal_tangent);
+        world_vector(&SurfacePoint::normal_tangent);
         break;
       case Variable::NormalBitangent:
-        put(v, lane, s.normal_bitangent);
+        world_vector(&SurfacePoint::normal_bitangent);
         break;
       case Variable::UvTangent:
-        put2(v, s.uv_tangent);
+        pair(&SurfacePoint::uv_tangent);
         break;
       case Variable::UvBitangent:
-        put2(v, s.uv_bitangent);
+        pair(&SurfacePoint::uv_bitangent);
         break;
       case Variable::Count:
         break;

@@ -40,8 +40,10 @@ struct CompiledDescriptor {
   bool semi_transparent = false;     ///< a surface whose scattering is not constant 1
   bool homogeneous = false;          ///< a volume whose coefficients do not depend on the place
   bool constant_material = false;    ///< no number of `material` depends on a run
-  bool bumps = false;                ///< gradient is not constant zero
-  double majorant = 0;               ///< stated bound of a heterogeneous volume, 1/m
+  /// Refractive index, inside over outside, of the first lobe that has one, of `shade`; or null.
+  const vm::ValueSource* index = nullptr;
+  bool bumps = false;   ///< gradient is not constant zero
+  double majorant = 0;  ///< stated bound of a heterogeneous volume, 1/m
 };
 
 class Compiled {
@@ -102,8 +104,9 @@ class Scripts {
   std::uint64_t fault_lanes() const { return fault_lanes_; }
 
  private:
-  void fill(const ScriptPoint& p, int lane, std::uint32_t variables);
-  void put(vm::Variable v, int lane, Vec3d value);
+  void fill(std::span<const ScriptPoint* const> points, std::uint32_t variables);
+  template <class F>
+  void put(vm::Variable v, std::span<const ScriptPoint* const> points, F value);
 
   const Compiled* compiled_;
   std::unique_ptr<vm::Interpreter<float>> machine_;

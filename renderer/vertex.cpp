@@ -35,6 +35,20 @@ Frame<double> shading_frame(const SurfacePoint& s, const std::array<double, 2>& 
   return Frame<double>::with_tangent(n, s.tangent);
 }
 
+void immerse(const materials::Layout& layout, const Spectrumf& outside, float* params) {
+  for (const materials::Layout::Node& node : layout.nodes()) {
+    if (!(materials::traits(node.lobe) & materials::Dispersive)) continue;
+    const materials::Formals& formals = materials::formals(node.lobe);
+    float* at = params + node.first_param;
+    for (int i = 0; i < formals.count; ++i) {
+      const bool spectrum = formals.kinds[i] == 's';
+      for (int k = 0; formals.index[i] && k < kWavelengths; ++k)
+        if (outside[k] > 0) at[k] /= outside[k];
+      at += spectrum ? kWavelengths : 1;
+    }
+  }
+}
+
 Spectrumf scripted_emission(const Compiled& compiled, const Scripts& scripts,
                             const vm::Descriptor& d, EntryKind entry, int lane,
                             const SurfacePoint& s, Vec3d to, std::vector<float>& scratch) {

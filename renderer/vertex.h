@@ -21,6 +21,10 @@ inline bool consistent(const SurfacePoint& s, const Frame<double>& frame, Vec3d 
   return dot(direction, s.geometric_normal) * dot(direction, frame.n) > 0;
 }
 
+/// Turns the indices of what bends light from over vacuum to over `outside`, for a surface that
+/// lies in something else. `params`: the numbers of `layout`.
+void immerse(const materials::Layout& layout, const Spectrumf& outside, float* params);
+
 /// Radiance that a scripted surface sends from lane `lane` of the last run towards `to`.
 Spectrumf scripted_emission(const Compiled& compiled, const Scripts& scripts,
                             const vm::Descriptor& d, EntryKind entry, int lane,

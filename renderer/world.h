@@ -8,35 +8,11 @@
 #include "renderer/camera.h"
 #include "renderer/lights.h"
 #include "renderer/majorants.h"
+#include "renderer/media.h"
 #include "renderer/scripts.h"
 #include "renderer/switches.h"
 
 namespace mms::renderer {
-
-/// Objects that a ray is inside of and that hold a volume, outermost first. The innermost rules.
-struct Media {
-  static constexpr int kDeepest = 6;
-  int objects[kDeepest] = {};
-  int count = 0;
-
-  int current() const { return count > 0 ? objects[count - 1] : -1; }
-  void enter(int object) {
-    if (count < kDeepest) objects[count++] = object;
-  }
-  /// Leaving what was never entered (an open mesh) changes nothing.
-  void leave(int object) {
-    int kept = 0;
-    bool left = false;  // the innermost entry only: from the back
-    for (int i = count; i-- > 0 && !left;)
-      if (objects[i] == object) left = true, objects[i] = kNone;
-    for (int i = 0; i < count; ++i)
-      if (objects[i] != kNone) objects[kept++] = objects[i];
-    count = kept;
-  }
-
- private:
-  static constexpr int kNone = -1;
-};
 
 struct World {
   const SceneData& scene;
@@ -44,9 +20,11 @@ struct World {
   const Accel& accel;
   const Lights& lights;
   CameraRays camera;
-  Media camera_media;        ///< what the camera stands in
-  std::vector<bool> sealed;  ///< objects whose inside no light reaches unscattered
-  bool plain = true;         ///< no volume and nothing semi-transparent: rays end where they hit
+  Media camera_media;                  ///< what the camera stands in
+  std::vector<bool> sealed;            ///< objects whose inside no light reaches unscattered
+  std::vector<bool> semi_transparent;  ///< objects that rays may pass unscattered
+  bool plain = true;  ///< no volume, no priority, nothing semi-transparent: rays end where they hit
+  bool nested = false;  ///< some object has a priority
   std::uint64_t seed = 0;
   int max_depth = 0;
   std::vector<MajorantGrid> majorants;  ///< of each object's volume, if it varies: Findings
@@ -61,11 +39,19 @@ struct World {
   }
   /// Follows a ray through a surface.
   void cross(Media& media, int object, bool inwards) const {
-    if (scene.objects[object].volume < 0) return;
+    if (!tracked(scene.objects[object])) return;
     if (inwards)
       media.enter(object);
     else
       media.leave(object);
+  }
+  /// The volumes around a ray: of the highest priority there.
+  Filling filling(const Media& media) const;
+  /// Whether no light comes unscattered to where a ray is.
+  bool sealed_in(const Media& media) const {
+    for (int i = 0; i < media.count; ++i)
+      if (sealed[media.objects[i]]) return true;
+    return false;
   }
 };
 
@@ -78,5 +64,8 @@ bool sealed(const SceneData& scene, const Compiled& compiled, int i);
 
 /// Whether rays may pass object `o` without being scattered.
 bool semi_transparent(const SceneData& scene, const Compiled& compiled, const Object& o);
+
+/// Whether a ray may find itself where the surface of `o` is not there: something has priority.
+bool may_be_hidden(const SceneData& scene, const Object& o);
 
 }  // namespace mms::renderer

@@ -52,6 +52,13 @@ TEST_CASE("every mistake names its place and what to try") {
   CHECK(holds(e.what, "-1"));
   CHECK(holds(e.what, "[1e-09, 1000000000"));
 
+  e = error_of(R"({"objects": [{"sphere": {}, "surface": "wood", "priority": 1.5}]})");
+  CHECK(e.where == "s.json: objects[0].priority");
+  CHECK(e.what == "a priority is a whole number");
+
+  e = error_of(R"({"objects": [{"disc": {}, "surface": "wood", "priority": 1}]})");
+  CHECK(holds(e.what, "only a closed object has an inside"));
+
   e = error_of(R"({"objects": [{"sphere": {"radius": "big"}, "surface": "wood"}]})");
   CHECK(holds(e.what, "expected a number, found the string \"big\""));
 
