@@ -7,10 +7,16 @@
 namespace mms::materials {
 namespace {
 
-/// The point `i` of an additive recurrence in the unit cube: steps 1/g, 1/g^2, 1/g^3, g^4 = g + 1.
+/// The digits of `i` in `base`, mirrored at the point.
+double mirrored_digits(int i, int base) {
+  double value = 0;
+  for (double digit = 1.0 / base; i > 0; i /= base, digit /= base) value += digit * (i % base);
+  return value;
+}
+
+/// The point `i` of Halton's sequence in the unit cube.
 Vec3d cube_point(int i) {
-  const auto at = [&](double step) { return std::fmod(0.5 + step * i, 1.0); };
-  return {at(0.8191725133961645), at(0.6710436067037893), at(0.5497004779019703)};
+  return {mirrored_digits(i + 1, 2), mirrored_digits(i + 1, 3), mirrored_digits(i + 1, 5)};
 }
 
 Vec3d direction(double degrees) {
@@ -75,9 +81,9 @@ Spectrum<double> value_of(const Phase<double>& phase, Vec3d a, Vec3d b, Mode) {
 template <class Scattering>
 double reciprocity(const Scattering& scattering) {
   double worst = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const Vec3d u = cube_point(2 * i), v = cube_point(2 * i + 1);
-    const Vec3d a = square_to_sphere(u.x, u.y), b = square_to_sphere(v.x, v.y);
+  for (int i = 1; i <= 2000; ++i) {
+    const auto at = [i](int base) { return mirrored_digits(i, base); };
+    const Vec3d a = square_to_sphere(at(2), at(3)), b = square_to_sphere(at(5), at(7));
     const auto ab = value_of(scattering, a, b, Mode::Radiance),
                ba = value_of(scattering, b, a, Mode::Importance);
     for (int j = 0; j < kWavelengths; ++j) {

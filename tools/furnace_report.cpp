@@ -45,7 +45,7 @@ Summary summary(const Furnace& f) {
 std::string summary_text(const Furnace& f) {
   const Summary s = summary(f);
   return fmt::format(
-      "loses at most {:.4f}, gains at most {:.4f}, reciprocal within {:.1e}, efficiency from "
+      "loses at most {:.4f}, gains at most {:.4f}, is reciprocal within {:.1e}, efficiency from "
       "{:.3f}",
       s.lost, s.gained, f.report.reciprocity, s.efficiency);
 }
@@ -186,6 +186,9 @@ sphere under the default light, and what `mms furnace` says of it.
 In the tables `albedo` is what comes back of light along a direction that many degrees from the normal (above 90: from inside), from the least to the
 most of eight wavelengths; `lost` is what is missing to 1 (negative: gained), `+-` the standard error were the samples independent, and `efficiency` what one sample is worth against one
 whose weight never varies: 1 / (1 + variance / mean^2).
+
+Rims are dark where a model loses energy, and nowhere else: `phong`, `spot`, `ward`, `ashikhmin_shirley`, and `sheen` in its middle. `glossy` and
+the facets keep it. Bright specks in and under rough glass are no model's: paths from the camera find the small lamp through two rough faces by chance.
 )";
 
 }  // namespace

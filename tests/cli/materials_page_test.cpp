@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What mms furnace says of phase functions, in numbers and as a plot.
+// docs/materials.md has an entry, a picture and a script for every model of materials/lobes.def;
+// and what mms furnace says of phase functions, in numbers and as a plot.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -11,6 +16,44 @@ using mms::cli::contains;
 using mms::cli::Folder;
 using mms::cli::Outcome;
 using nlohmann::json;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(fs::path(MMS_SOURCE_DIR) / path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+TEST_CASE("every model is in the figures, on the page and in a picture") {
+  const std::string script = text_of("examples/figures/materials.mms");
+  const std::string page = text_of("docs/materials.md");
+  std::istringstream table(text_of("materials/lobes.def"));
+  const std::string mark = "\"material ";
+  std::uintmax_t bytes = 0;
+  int models = 0;
+  for (std::string line; std::getline(table, line);) {
+    if (!line.starts_with("LOBE(")) continue;
+    const std::size_t begin = line.find(mark) + mark.size();
+    const std::string name = line.substr(begin, line.find('(', begin) - begin);
+    INFO(name);
+    CHECK(contains(script, "\nsurface " + name));
+    CHECK(contains(page, "\n## " + name + "\n"));
+    const fs::path picture = fs::path(MMS_SOURCE_DIR) / "docs/images/materials" / (name + ".png");
+    REQUIRE(fs::exists(picture));
+    bytes += fs::file_size(picture);
+    ++models;
+  }
+  CHECK(models >= 31);
+  CHECK(bytes < 500'000);
+  const Folder folder;
+  const std::string path = std::string(MMS_SOURCE_DIR) + "/examples/figures/materials.mms";
+  CHECK(folder.mms("check " + path).exit == 0);
+  CHECK(folder.mms("fmt --check " + path).exit == 0);
+}
 
 TEST_CASE(
     "furnace: phase functions, what is lost and gained, how efficient; the plot and the page") {
