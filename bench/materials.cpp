@@ -34,7 +34,7 @@ struct Hit {
 /// Hits on a material: half of their `wi` are its own samples, half are even over the sphere.
 std::vector<Hit<double>> hits_of(const Bsdf<double>& bsdf) {
   std::mt19937 random(5);
-  const auto number = [&] { return (random() >> 8) * 0x1p-24; };  // a float, too
+  const auto number = [&] { return double(random() >> 8) * 0x1p-24; };  // a float, too
   const auto narrow = [](Vec3d v) { return Vec3d{float(v.x), float(v.y), float(v.z)}; };
   std::vector<Hit<double>> hits;
   for (int i = 0; i < kHits; ++i) {
