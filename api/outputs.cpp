@@ -43,6 +43,35 @@ std::optional<MaterialSource> material_source(const vm::Descriptor& d, vm::Outpu
   return std::nullopt;
 }
 
+std::vector<double> material_numbers(const vm::Program& program, const MaterialSource& source,
+                                     vm::InputBatch<double>& in) {
+  const vm::Executable executable(program);
+  vm::Interpreter<double> machine(in.width());
+  if (source.entry->function) machine.run(executable, *source.entry->function, in, 1);
+  const auto value = [&](const vm::ValueSource& v, int c) -> double {
+    if (v.constant) {
+      const vm::Constant& constant = program.constants[v.index];
+      return constant.type == vm::SlotType::Real ? constant.f64 : double(constant.integer);
+    }
+    const int k = static_cast<int>(v.index);
+    if (v.type == vm::SlotType::Real) return machine.result(k)[0];
+    if (v.type == vm::SlotType::Spectrum) return machine.result(k, c)[0];
+    return machine.integer_result(k)[0];
+  };
+  std::vector<double> numbers;
+  for (const vm::LayoutNode& node : source.layout->nodes) {
+    const materials::Formals& formals = materials::formals(materials::Lobe(node.lobe));
+    std::size_t next = 0;
+    for (int k = 0; k < formals.count; ++k) {
+      if (formals.kinds[k] == 'm') continue;
+      const vm::ValueSource& v = node.params[next++];
+      for (int c = 0; c < (formals.kinds[k] == 's' ? kWavelengths : 1); ++c)
+        numbers.push_back(value(v, c));
+    }
+  }
+  return numbers;
+}
+
 std::string_view lobe_name(int lobe) {
   for (const vm::Builtin& row : materials::rows()) {
     if (row.lobe != lobe) continue;

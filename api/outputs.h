@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vm/interpreter.h"
 #include "vm/program.h"
 
 namespace mms::api {
@@ -43,6 +44,10 @@ struct MaterialSource {
   const vm::MaterialLayout* layout;
 };
 std::optional<MaterialSource> material_source(const vm::Descriptor& descriptor, vm::Output output);
+
+/// The numbers of a material at the first point of `in`, as materials/layout.h lays them out.
+std::vector<double> material_numbers(const vm::Program& program, const MaterialSource& source,
+                                     vm::InputBatch<double>& in);
 
 /// The name of a scattering model or combiner as scripts write it.
 std::string_view lobe_name(int lobe);

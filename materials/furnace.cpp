@@ -2,14 +2,21 @@
 #include "materials/furnace.h"
 
 #include "materials/bsdf.h"
+#include "materials/phase.h"
 
 namespace mms::materials {
 namespace {
 
-/// The point `i` of an additive recurrence in the unit cube: steps 1/g, 1/g^2, 1/g^3, g^4 = g + 1.
+/// The digits of `i` in `base`, mirrored at the point.
+double mirrored_digits(int i, int base) {
+  double value = 0;
+  for (double digit = 1.0 / base; i > 0; i /= base, digit /= base) value += digit * (i % base);
+  return value;
+}
+
+/// The point `i` of Halton's sequence in the unit cube.
 Vec3d cube_point(int i) {
-  const auto at = [&](double step) { return std::fmod(0.5 + step * i, 1.0); };
-  return {at(0.8191725133961645), at(0.6710436067037893), at(0.5497004779019703)};
+  return {mirrored_digits(i + 1, 2), mirrored_digits(i + 1, 3), mirrored_digits(i + 1, 5)};
 }
 
 Vec3d direction(double degrees) {
@@ -40,12 +47,22 @@ struct Mean {
   double mean = 0, variance = 0;
 };
 
-Mean albedo(const Bsdf<double>& bsdf, Vec3d wo, int samples) {
+/// The weight of the sample that `u` draws; 0 where there is none.
+double weight_of(const Bsdf<double>& bsdf, Vec3d wo, Vec3d u) {
+  const auto s = bsdf.sample(wo, u.x, u.y, u.z, Mode::Importance);
+  return s ? s->f[0] * std::abs(s->wi.z) / s->pdf[0] : 0;
+}
+
+double weight_of(const Phase<double>& phase, Vec3d wo, Vec3d u) {
+  const auto s = phase.sample(wo, u.x, u.y, u.z);
+  return s ? s->f[0] / s->pdf[0] : 0;
+}
+
+template <class Scattering>
+Mean albedo(const Scattering& scattering, Vec3d wo, int samples) {
   double mean = 0, squares = 0;  // Welford's sums
   for (int i = 0; i < samples; ++i) {
-    const Vec3d u = cube_point(i);
-    const auto s = bsdf.sample(wo, u.x, u.y, u.z, Mode::Importance);
-    const double weight = s ? s->f[0] * std::abs(s->wi.z) / s->pdf[0] : 0;
+    const double weight = weight_of(scattering, wo, cube_point(i));
     const double step = weight - mean;
     mean += step / (i + 1);
     squares += step * (weight - mean);
@@ -53,12 +70,22 @@ Mean albedo(const Bsdf<double>& bsdf, Vec3d wo, int samples) {
   return {mean, squares / samples};
 }
 
-double reciprocity(const Bsdf<double>& bsdf) {
+Spectrum<double> value_of(const Bsdf<double>& bsdf, Vec3d a, Vec3d b, Mode mode) {
+  return bsdf.eval(a, b, mode);
+}
+
+Spectrum<double> value_of(const Phase<double>& phase, Vec3d a, Vec3d b, Mode) {
+  return phase.eval(a, b);
+}
+
+template <class Scattering>
+double reciprocity(const Scattering& scattering) {
   double worst = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const Vec3d u = cube_point(2 * i), v = cube_point(2 * i + 1);
-    const Vec3d a = square_to_sphere(u.x, u.y), b = square_to_sphere(v.x, v.y);
-    const auto ab = bsdf.eval(a, b, Mode::Radiance), ba = bsdf.eval(b, a, Mode::Importance);
+  for (int i = 1; i <= 2000; ++i) {
+    const auto at = [i](int base) { return mirrored_digits(i, base); };
+    const Vec3d a = square_to_sphere(at(2), at(3)), b = square_to_sphere(at(5), at(7));
+    const auto ab = value_of(scattering, a, b, Mode::Radiance),
+               ba = value_of(scattering, b, a, Mode::Importance);
     for (int j = 0; j < kWavelengths; ++j) {
       const double larger = std::max(ab[j], ba[j]);
       if (larger > 0) worst = std::max(worst, std::abs(ab[j] - ba[j]) / larger);
@@ -67,31 +94,46 @@ double reciprocity(const Bsdf<double>& bsdf) {
   return worst;
 }
 
-}  // namespace
-
-FurnaceReport furnace(const Layout& layout, const std::vector<double>& numbers, int samples) {
-  FurnaceReport report;
-  for (double degrees : {0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 80.0, 85.0, 89.0, 89.9, 180.0, 150.0,
-                         120.0, 100.0, 91.0})
-    if (degrees < 90 || layout.transmits()) report.rows.push_back({degrees, {}, 0, 0});
+template <class Scattering>
+FurnaceReport measure(const Layout& layout, const std::vector<double>& numbers, int samples,
+                      std::vector<FurnaceRow> rows) {
+  FurnaceReport report{std::move(rows), 0};
   std::vector<double> turned;
   for (int j = 0; j < kWavelengths; ++j) {
     const bool other = turn(layout, numbers, j, turned);
-    const Bsdf<double> bsdf(layout, turned.data());
+    const Scattering scattering(layout, turned.data());
     for (FurnaceRow& row : report.rows) {
       if (j > 0 && !other) {
         row.albedo[j] = row.albedo[0];
         continue;
       }
-      const Mean m = albedo(bsdf, direction(row.degrees), samples);
+      const Mean m = albedo(scattering, direction(row.degrees), samples);
       row.albedo[j] = m.mean;
       if (j > 0) continue;
       row.standard_error = std::sqrt(m.variance / samples);
       row.relative_variance = m.mean > 0 ? m.variance / (m.mean * m.mean) : 0;
     }
   }
-  report.reciprocity = reciprocity(Bsdf<double>(layout, numbers.data()));
+  report.reciprocity = reciprocity(Scattering(layout, numbers.data()));
   return report;
+}
+
+}  // namespace
+
+double FurnaceRow::lost() const {
+  double most = 0;
+  for (const double a : albedo.v)
+    if (std::abs(1 - a) > std::abs(most)) most = 1 - a;
+  return most;
+}
+
+FurnaceReport furnace(const Layout& layout, const std::vector<double>& numbers, int samples) {
+  if (layout.phase()) return measure<Phase<double>>(layout, numbers, samples, {FurnaceRow()});
+  std::vector<FurnaceRow> rows;
+  for (double degrees : {0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 80.0, 85.0, 89.0, 89.9, 180.0, 150.0,
+                         120.0, 100.0, 91.0})
+    if (degrees < 90 || layout.transmits()) rows.push_back({degrees, {}, 0, 0});
+  return measure<Bsdf<double>>(layout, numbers, samples, std::move(rows));
 }
 
 }  // namespace mms::materials
