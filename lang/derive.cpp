@@ -63,7 +63,7 @@ Ref Elaborator::sum(std::optional<Ref> a, std::optional<Ref> b) {
 }
 
 /// Whether all of the function is there to be differentiated; says so where it is not.
-bool Elaborator::is_complete(std::uint16_t function) {
+bool Elaborator::is_complete(FunctionId function) {
   auto instance = instance_of_.find(function);
   if (instance == instance_of_.end() || instance->second->complete) return true;
   diagnostics_.add(Diag::NoDerivative, deriving_.span, module.functions[function].name)
@@ -73,10 +73,10 @@ bool Elaborator::is_complete(std::uint16_t function) {
 
 /// The function of the derivatives: parameters of `function`, then the derivative of each that
 /// moves; results: the derivative of each result (zero for what does not move).
-std::uint16_t Elaborator::derive_function(std::uint16_t function, int direction) {
+FunctionId Elaborator::derive_function(FunctionId function, int direction) {
   auto it = derived_.find({function, direction});
   if (it != derived_.end()) return it->second;
-  const std::uint16_t derived = new_function(module.functions[function].name + "'");
+  const FunctionId derived = new_function(module.functions[function].name + "'");
   derived_[{function, direction}] = derived;
   const IrFunction& from = module.functions[function];
   IrFunction& to = module.functions[derived];
@@ -85,7 +85,7 @@ std::uint16_t Elaborator::derive_function(std::uint16_t function, int direction)
   to.nodes = from.nodes;
   for (Node& n : to.nodes)
     for (Ref& a : n.args) a.function = derived;
-  const std::uint16_t here = function_;
+  const FunctionId here = function_;
   function_ = derived;
   Tangents t;
   std::map<std::uint32_t, std::uint32_t> tangent_param;
@@ -215,8 +215,8 @@ void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
     case Op::Call: {
       bool active = false;
       for (Ref a : n.args) active = active || t.count(a);
-      if (!active || !is_complete(static_cast<std::uint16_t>(n.a))) return;
-      const std::uint16_t derived = derive_function(static_cast<std::uint16_t>(n.a), direction);
+      if (!active || !is_complete(n.a)) return;
+      const FunctionId derived = derive_function(n.a, direction);
       std::vector<Ref> args = n.args;
       for (std::size_t k = 0; k < n.args.size(); ++k)
         if (moves(module.functions[n.a].params[k])) args.push_back(or_zero(k));

@@ -139,9 +139,26 @@ Value Elaborator::expr(Context c, ExprHandle h) {
   return v;
 }
 
+std::optional<Value> Elaborator::carried(Value v) {
+  if (v.material) return std::nullopt;
+  for (Ref& r : v.refs) {
+    if (!known(r)) return std::nullopt;
+    r = localise(r);
+  }
+  for (Value& part : v.parts) {
+    std::optional<Value> here = carried(std::move(part));
+    if (!here) return std::nullopt;
+    part = std::move(*here);
+  }
+  return v;
+}
+
 Value Elaborator::evaluate_constant(Binding& b) {
   auto cached = b.cache.find(function_);
   if (cached != b.cache.end()) return cached->second;
+  if (!b.cache.empty())
+    if (std::optional<Value> known = carried(b.cache.begin()->second))
+      return b.cache[function_] = std::move(*known);
   if (b.circular) return {};
   if (b.busy) {
     report_circle(b);

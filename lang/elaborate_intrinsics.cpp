@@ -136,8 +136,7 @@ std::vector<Ref> Elaborator::substitute(std::uint32_t first, const std::vector<R
       now[{i, static_cast<std::uint16_t>(k), function_}] =
           decided ? args[1 + k + (decided->integer ? 0 : count)]
                   : Ref{r.node, static_cast<std::uint16_t>(k), function_};
-    auto callee =
-        n.op == Op::Call ? instance_of_.find(static_cast<std::uint16_t>(n.a)) : instance_of_.end();
+    auto callee = n.op == Op::Call ? instance_of_.find(n.a) : instance_of_.end();
     if (callee != instance_of_.end()) callee->second->sites.push_back({function_, r.node});
   }
   line_ = line;

@@ -207,7 +207,7 @@ Value Elaborator::call_instance(FunctionDecl* d, const std::vector<Value>& forma
           .help("let it call itself with arguments of the types (and functions) it was given");
       return {};
     }
-    const std::uint16_t caller = function_;
+    const FunctionId caller = function_;
     const int dynamic = dynamic_;
     const std::size_t depth = frames_.size();
     const vm::SourceLine line = line_;

@@ -39,9 +39,9 @@ std::optional<std::string> read_file(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::uint16_t Elaborator::new_function(std::string name) {
+FunctionId Elaborator::new_function(std::string name) {
   module.functions.push_back({std::move(name), {}, {}, {}, false});
-  return static_cast<std::uint16_t>(module.functions.size() - 1);
+  return static_cast<FunctionId>(module.functions.size() - 1);
 }
 
 std::uint32_t Elaborator::source_index(const Source* s) {

@@ -124,7 +124,7 @@ Ref Elaborator::localise(Ref r) {
   f.params.push_back(from.results[r.result]);
   const std::uint32_t index = static_cast<std::uint32_t>(f.params.size() - 1);
   // Every call made so far must hand the new one over too.
-  const std::uint16_t here = function_;
+  const FunctionId here = function_;
   for (std::size_t k = 0; k < inst.sites.size(); ++k) {
     const CallSite site = inst.sites[k];
     function_ = site.function;

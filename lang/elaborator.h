@@ -43,7 +43,7 @@ struct ElaboratedDescriptor {
   const Descriptor* syntax = nullptr;
   const Graph* graph = nullptr;
   std::string name;  ///< its own or an alias
-  std::uint16_t function = 0;
+  FunctionId function = 0;
   Value outputs[static_cast<std::size_t>(vm::Output::Count)];
   bool stated[static_cast<std::size_t>(vm::Output::Count)] = {};
 };
@@ -52,7 +52,7 @@ struct ElaboratedDescriptor {
 struct ElaboratedExport {
   std::string name;
   std::string type;
-  std::uint16_t function = 0;
+  FunctionId function = 0;
 };
 
 class Elaborator {
@@ -96,11 +96,11 @@ class Elaborator {
     const Function& function() const { return graph.functions[0]; }
   };
   struct CallSite {
-    std::uint16_t function;
+    FunctionId function;
     std::uint32_t node;
   };
   struct Instance {
-    std::uint16_t function = 0;
+    FunctionId function = 0;
     std::vector<Ref> captures;
     std::vector<CallSite> sites;
     std::size_t own_params = 0;
@@ -204,6 +204,8 @@ class Elaborator {
   Value expr_convert(Context c, const Expr& e);
   Value expr_call(Context c, const Expr& e);
   Value evaluate_constant(Binding& b);
+  /// `v`, of any function, in this one; nothing where a part of it is not known.
+  std::optional<Value> carried(Value v);
   void report_circle(Binding& b);
 
   // --- calls (elaborate_call.cpp) ---
@@ -290,8 +292,8 @@ class Elaborator {
   std::optional<Ref> tangent(const Tangents& t, Ref r) const;
   void derive_node(std::uint32_t index, int direction, Tangents& t);
   Ref derived_op(vm::Op op, vm::Op spectral, std::vector<Ref> args);
-  bool is_complete(std::uint16_t function);
-  std::uint16_t derive_function(std::uint16_t function, int direction);
+  bool is_complete(FunctionId function);
+  FunctionId derive_function(FunctionId function, int direction);
   Ref sum(std::optional<Ref> a, std::optional<Ref> b);
   Value derive_gradient(const Value& height, Span span);
   std::vector<Value> footprint_columns(const Value& value);
@@ -356,7 +358,7 @@ class Elaborator {
   void outputs(ElaboratedDescriptor& e, Scope* scope);
   void declare_items(const Graph& graph, Scope* scope);
   void export_value(const std::string& name, const Value& v);
-  std::uint16_t new_function(std::string name);
+  FunctionId new_function(std::string name);
   std::uint32_t source_index(const Source* s);
   vm::SourceLine line_of(Span s);
 
@@ -383,12 +385,12 @@ class Elaborator {
   std::map<const Library::Module*, SourcePtr> module_sources_;
   std::map<const vm::Builtin*, std::unique_ptr<Signature>> signatures_;
   std::map<std::string, Instance> instances_;
-  std::map<std::uint16_t, Instance*> instance_of_;
+  std::map<FunctionId, Instance*> instance_of_;
   std::map<const Source*, std::uint32_t> source_index_;
   /// Images of the program by the folder of the script and what it writes.
   std::map<std::pair<std::string, std::string>, std::vector<std::uint32_t>> image_numbers_;
   std::vector<MissingImage> missing_images_;
-  std::map<std::pair<std::uint16_t, int>, std::uint16_t> derived_;  ///< by function and direction
+  std::map<std::pair<FunctionId, int>, FunctionId> derived_;  ///< by function and direction
   Deriving deriving_;
   std::map<Ref, Ref>
       stands_for_;  ///< the value whose place an argument holds that nobody knows yet
@@ -398,7 +400,7 @@ class Elaborator {
   Scope* program_scope_ = nullptr;
 
   // Where elaboration stands.
-  std::uint16_t function_ = 0;
+  FunctionId function_ = 0;
   int dynamic_ = 0;  ///< selects entered whose condition is known only at run time
   std::vector<Frame> frames_;
   std::size_t inlined_ = 0;

@@ -18,7 +18,7 @@ using vm::SlotType;
 class FunctionEmitter {
  public:
   FunctionEmitter(Emitter& parent, const IrFunction& f, std::span<const Ref> results,
-                  std::uint16_t number, vm::Function& out)
+                  FunctionId number, vm::Function& out)
       : parent_(parent),
         f_(f),
         results_(results.begin(), results.end()),
@@ -63,7 +63,7 @@ class FunctionEmitter {
   Emitter& parent_;
   const IrFunction& f_;
   std::vector<Ref> results_;
-  std::uint16_t number_;
+  FunctionId number_;
   vm::Function& out_;
   std::vector<RegionInfo> regions_{1};
   std::vector<std::vector<Region>> uses_;
@@ -222,13 +222,15 @@ void FunctionEmitter::compute(std::uint32_t n, Placement& p) {
   const Region home = p.region;
   for (Ref a : node.args) push(a, home);
   std::uint32_t a = node.a;
-  if (node.op == Op::Call) a = parent_.callee(static_cast<std::uint16_t>(node.a));
+  if (node.op == Op::Call) a = parent_.callee(node.a);
   code(node.op, node, a, node.b);
 }
 
 void FunctionEmitter::push(Ref ref, Region r) {
   const Node& node = f_.nodes[ref.node];
-  if (leaf(ref.node)) return code(node.op, node, node.a, node.b);
+  if (leaf(ref.node))
+    return code(node.op, node, node.op == Op::PushConst ? parent_.constant(node.a) : node.a,
+                node.b);
   Placement& p = placement(ref.node, r);
   if (!p.locals.empty()) return code(Op::LoadLocal, node, p.locals[ref.result]);
   compute(ref.node, p);
@@ -305,7 +307,7 @@ void FunctionEmitter::run() {
 
 Emitter::Emitter(const Module& module, vm::Program& program) : module_(module), program_(program) {}
 
-std::uint32_t Emitter::emit(std::uint16_t f, std::span<const Ref> results, std::string name) {
+std::uint32_t Emitter::emit(FunctionId f, std::span<const Ref> results, std::string name) {
   const std::uint32_t index = static_cast<std::uint32_t>(program_.functions.size());
   program_.functions.emplace_back();
   vm::Function out;
@@ -315,7 +317,14 @@ std::uint32_t Emitter::emit(std::uint16_t f, std::span<const Ref> results, std::
   return index;
 }
 
-std::uint32_t Emitter::callee(std::uint16_t f) {
+std::uint32_t Emitter::constant(std::uint32_t k) {
+  const auto [it, is_new] =
+      constants_.try_emplace(k, static_cast<std::uint32_t>(program_.constants.size()));
+  if (is_new) program_.constants.push_back(module_.constants[k]);
+  return it->second;
+}
+
+std::uint32_t Emitter::callee(FunctionId f) {
   auto it = emitted_.find(f);
   if (it != emitted_.end()) return it->second;
   const std::uint32_t index = static_cast<std::uint32_t>(program_.functions.size());

@@ -19,14 +19,17 @@ class Emitter {
   Emitter(const Module& module, vm::Program& program);
 
   /// The program's function that returns `results` of `f`; they are values of `f`, in any order.
-  std::uint32_t emit(std::uint16_t f, std::span<const Ref> results, std::string name);
+  std::uint32_t emit(FunctionId f, std::span<const Ref> results, std::string name);
+  /// The program's number of constant `k` of the module.
+  std::uint32_t constant(std::uint32_t k);
 
  private:
-  std::uint32_t callee(std::uint16_t f);
+  std::uint32_t callee(FunctionId f);
 
   const Module& module_;
   vm::Program& program_;
-  std::map<std::uint16_t, std::uint32_t> emitted_;
+  std::map<FunctionId, std::uint32_t> emitted_;
+  std::map<std::uint32_t, std::uint32_t> constants_;
   friend class FunctionEmitter;
 };
 

@@ -21,23 +21,15 @@ vm::SlotType type_of(char letter) {
   }
 }
 
-/// Equal as bits, so that 0 and -0 stay apart and a NaN is found again.
-bool same(const vm::Constant& a, const vm::Constant& b) {
-  return a.type == b.type &&
-         std::bit_cast<std::uint32_t>(a.f32) == std::bit_cast<std::uint32_t>(b.f32) &&
-         std::bit_cast<std::uint64_t>(a.f64) == std::bit_cast<std::uint64_t>(b.f64) &&
-         a.integer == b.integer;
-}
-
 }  // namespace
 
 std::uint32_t Module::constant(const vm::Constant& c) {
-  // Recent constants repeat most; a full search would make linking quadratic.
-  const std::size_t first = constants.size() > 64 ? constants.size() - 64 : 0;
-  for (std::size_t i = constants.size(); i-- > first;)
-    if (same(constants[i], c)) return static_cast<std::uint32_t>(i);
-  constants.push_back(c);
-  return static_cast<std::uint32_t>(constants.size() - 1);
+  const Bits bits = {c.type, std::bit_cast<std::uint32_t>(c.f32),
+                     std::bit_cast<std::uint64_t>(c.f64), c.integer};
+  const auto [it, is_new] =
+      constant_numbers_.try_emplace(bits, static_cast<std::uint32_t>(constants.size()));
+  if (is_new) constants.push_back(c);
+  return it->second;
 }
 
 std::uint32_t Module::builtin(const vm::Builtin* row, const std::vector<vm::SlotType>& params,
@@ -57,7 +49,7 @@ std::vector<vm::SlotType> pushed_types(vm::Op op) {
   return types;
 }
 
-Ref add_node(IrFunction& f, std::uint16_t function, Node node) {
+Ref add_node(IrFunction& f, FunctionId function, Node node) {
   if (node.results.empty()) node.results = pushed_types(node.op);
   f.nodes.push_back(std::move(node));
   return {static_cast<std::uint32_t>(f.nodes.size() - 1), 0, function};

@@ -8,19 +8,23 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "vm/program.h"
 
 namespace mms::lang {
 
+using FunctionId = std::uint32_t;  ///< index in Module::functions
+
 /// One value: result `result` of node `node` of function `function`.
 struct Ref {
   std::uint32_t node = 0;
   std::uint16_t result = 0;
-  std::uint16_t function = 0;
+  FunctionId function = 0;
   friend auto operator<=>(const Ref&, const Ref&) = default;
 };
 
@@ -61,13 +65,18 @@ struct Module {
   std::vector<std::vector<vm::SlotType>> builtin_params, builtin_results;
   std::vector<vm::ProgramImage> images;
 
+  /// The number of `c`, equal as bits: 0 and -0 stay apart and a NaN is found again.
   std::uint32_t constant(const vm::Constant& c);
   std::uint32_t builtin(const vm::Builtin* row, const std::vector<vm::SlotType>& params,
                         const std::vector<vm::SlotType>& results);
+
+ private:
+  using Bits = std::tuple<vm::SlotType, std::uint32_t, std::uint64_t, std::int32_t>;
+  std::map<Bits, std::uint32_t> constant_numbers_;
 };
 
 /// Adds an operation whose result types the opcode table or `results` gives.
-Ref add_node(IrFunction& f, std::uint16_t function, Node node);
+Ref add_node(IrFunction& f, FunctionId function, Node node);
 
 /// Types an operation of the table pushes; empty where the operand decides.
 std::vector<vm::SlotType> pushed_types(vm::Op op);

@@ -41,13 +41,13 @@ void value_refs(const Value& v, std::vector<Ref>& refs) {
 /// Builds one entry: collects the results it needs and says where each value is found.
 class EntryBuilder {
  public:
-  EntryBuilder(Module& module, const IrFunction& f) : module_(module), f_(f) {}
+  EntryBuilder(Emitter& emitter, const IrFunction& f) : emitter_(emitter), f_(f) {}
 
   vm::ValueSource source(Ref r) {
     const Node* n = &f_.nodes[r.node];
     const SlotType type = f_.type(r);
     if (n->op == Op::Splat && f_.nodes[n->args[0].node].known >= 0) n = &f_.nodes[n->args[0].node];
-    if (n->known >= 0) return {type, true, static_cast<std::uint32_t>(n->known)};
+    if (n->known >= 0) return {type, true, emitter_.constant(static_cast<std::uint32_t>(n->known))};
     for (std::size_t k = 0; k < results_.size(); ++k)
       if (results_[k] == r) return {type, false, static_cast<std::uint32_t>(k)};
     results_.push_back(r);
@@ -73,7 +73,7 @@ class EntryBuilder {
     return static_cast<std::uint32_t>(l.nodes.size() - 1);
   }
 
-  Module& module_;
+  Emitter& emitter_;
   const IrFunction& f_;
   std::vector<Ref> results_;
 };
@@ -83,7 +83,7 @@ class Dependencies {
  public:
   explicit Dependencies(const Module& m) : m_(m) {}
 
-  std::uint32_t of(std::uint16_t function, std::span<const Ref> roots) {
+  std::uint32_t of(FunctionId function, std::span<const Ref> roots) {
     std::uint32_t mask = 0;
     std::set<std::uint32_t> seen;
     std::vector<std::uint32_t> pending;
@@ -97,8 +97,8 @@ class Dependencies {
       if (n.known >= 0) continue;
       if (n.op == Op::PushInput)
         mask |= 1u << static_cast<int>(vm::input_variable(static_cast<int>(n.a)));
-      if (n.op == Op::Call && called_.insert(static_cast<std::uint16_t>(n.a)).second)
-        mask |= of(static_cast<std::uint16_t>(n.a), m_.functions[n.a].results);
+      if (n.op == Op::Call && called_.insert(n.a).second)
+        mask |= of(n.a, m_.functions[n.a].results);
       for (Ref a : n.args) pending.push_back(a.node);
     }
     return mask;
@@ -107,7 +107,7 @@ class Dependencies {
 
  private:
   const Module& m_;
-  std::set<std::uint16_t> called_;
+  std::set<FunctionId> called_;
 };
 
 constexpr std::uint32_t bit(vm::Variable v) { return 1u << static_cast<int>(v); }
@@ -131,7 +131,6 @@ class ProgramBuilder {
     }
     program_.images = e_.module.images;
     program_.sources = e_.sources;
-    program_.constants = e_.module.constants;
     program_.builtins = e_.module.builtins;
     program_.builtin_params = e_.module.builtin_params;
     program_.builtin_results = e_.module.builtin_results;
@@ -156,7 +155,7 @@ class ProgramBuilder {
   vm::Entry entry(const ElaboratedDescriptor& d, const Outputs& o,
                   std::initializer_list<Output> wanted, const char* what) {
     const IrFunction& f = e_.module.functions[d.function];
-    EntryBuilder b(e_.module, f);
+    EntryBuilder b(emitter_, f);
     vm::Entry e;
     for (Output out : wanted) {
       std::size_t next = o.of(out).begin;

@@ -40,11 +40,11 @@ class Rewrite {
     for (Ref& a : args) a = at(a);
   }
   /// Keeps `n`, whose arguments have been mapped.
-  void keep_mapped(std::size_t index, Node n, std::uint16_t function) {
+  void keep_mapped(std::size_t index, Node n, FunctionId function) {
     const std::size_t count = n.results.size();
     put_all(index, count, add_node(out, function, std::move(n)));
   }
-  void keep(std::size_t index, Node n, std::uint16_t function) {
+  void keep(std::size_t index, Node n, FunctionId function) {
     map(n.args);
     keep_mapped(index, std::move(n), function);
   }
@@ -58,9 +58,7 @@ class Rewrite {
   std::vector<Ref> where_;
 };
 
-std::uint16_t number_of(const IrFunction& f) {
-  return f.results.empty() ? 0 : f.results[0].function;
-}
+FunctionId number_of(const IrFunction& f) { return f.results.empty() ? 0 : f.results[0].function; }
 
 /// Leaves stand first, so that arguments always precede what uses them.
 std::vector<std::uint32_t> order(const IrFunction& f) {

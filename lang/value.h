@@ -89,7 +89,7 @@ struct Binding {
   ExprHandle expr;                             // Constant
   bool busy = false;                           // Constant, Type: being evaluated
   bool circular = false;                       // Constant: asks for itself, which was said
-  std::map<std::uint16_t, Value> cache;        // Constant: by function it was evaluated in
+  std::map<FunctionId, Value> cache;           // Constant: by function it was evaluated in
 };
 
 /// A surface or a volume and the name it goes by, its own or an alias.

@@ -44,15 +44,20 @@ MMS_INLINE SinCos signed_sin_cos(double x) {
   return {x == 0 ? x : s.sin, s.cos};
 }
 
+/// Whether only the modulus is known of what an angle of these turns: x + iy with x infinite.
+MMS_INLINE bool infinite_without_angle(double x, SinCos angle) {
+  return (magnitude(x) == kInf<double>)&(angle.cos != angle.cos);
+}
+
 /// Where the angle is no number: 0 for a real part of -inf, and an infinite real part for inf
 /// (C99).
 template <class Reduction = Usual>
 MMS_INLINE Complex exp_complex(Complex z) {
   const double m = exp_core(z.re);
   const SinCos a = signed_sin_cos<Reduction>(z.im);
-  const bool angle = a.cos == a.cos, none = !angle & (z.re == -kInf<double>);
-  const double re = none ? 0.0 : !angle & (z.re == kInf<double>) ? kInf<double> : m * a.cos;
-  return {re, none ? 0.0 : damped(a.sin, m)};
+  const bool open = infinite_without_angle(z.re, a);
+  const bool none = open & (z.re < 0);
+  return {none ? 0.0 : open ? m : m * a.cos, none ? 0.0 : damped(a.sin, m)};
 }
 
 /// log |z| is taken from |z|^2 - 1, of which every term is exact in double where z is float.
@@ -87,27 +92,38 @@ MMS_INLINE Complex sqrt_complex(Complex z) {
                   : r.im};
 }
 
+/// Where the angle is no number: infinite with an infinite real part, and sinh keeps a real part of
+/// 0 (C99).
 template <class Reduction = Usual>
 MMS_INLINE Complex sinh_complex(Complex z) {
   const SinhCosh h = sinh_cosh(z.re);
   const SinCos a = signed_sin_cos<Reduction>(z.im);
-  return {h.sinh * a.cos, damped(a.sin, h.cosh)};
+  const bool kept = infinite_without_angle(z.re, a) | ((z.re == 0) & (a.cos != a.cos));
+  return {kept ? h.sinh : h.sinh * a.cos, damped(a.sin, h.cosh)};
 }
 template <class Reduction = Usual>
 MMS_INLINE Complex cosh_complex(Complex z) {
   const SinhCosh h = sinh_cosh(z.re);
   const SinCos a = signed_sin_cos<Reduction>(z.im);
-  return {h.cosh * a.cos, a.sin == 0 ? with_sign(0.0, h.sinh) * a.sin : h.sinh * a.sin};
+  const double im = a.sin == 0 ? with_sign(0.0, h.sinh) * a.sin : h.sinh * a.sin;
+  return {infinite_without_angle(z.re, a) ? h.cosh : h.cosh * a.cos,
+          (z.re == 0) & (im != im) ? 0.0 : im};
 }
 /// (sinh x cosh x + i sin y cos y) / (sinh^2 x + cos^2 y). Beyond 60 the imaginary part is below
-/// the least float.
+/// the least float. Infinite x gives +-1 whatever the angle, and a zero stays zero (C99).
 template <class Reduction = Usual>
 MMS_INLINE Complex tanh_complex(Complex z) {
   const double x = z.re > 60 ? 60 : z.re < -60 ? -60 : z.re;
   const SinhCosh h = sinh_cosh(x);
   const SinCos a = signed_sin_cos<Reduction>(z.im);
   const double d = h.sinh * h.sinh + a.cos * a.cos;
-  return {h.sinh * h.cosh / d, a.sin * a.cos / d};
+  const bool open = infinite_without_angle(z.re, a);
+  return {open        ? with_sign(1.0, z.re)
+          : z.re == 0 ? z.re
+                      : h.sinh * h.cosh / d,
+          open        ? with_sign(0.0, z.im)
+          : z.im == 0 ? z.im
+                      : a.sin * a.cos / d};
 }
 
 /// 0^w is 1 for w = 0, else 0 where Re w > 0 and infinite where Re w < 0; z^0 is 1.

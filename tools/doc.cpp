@@ -75,8 +75,17 @@ Exit print_script(const DocOptions& options) {
   return Exit::Ok;
 }
 
+/// A page that is written by hand: as HTML it goes with the others.
+Exit print_markdown(const DocOptions& options) {
+  const Result<lang::SourcePtr> page = api::read_source(options.page);
+  if (!page) return fail(Exit::File, page.error(), options);
+  fmt::print("{}", rendered((*page)->text, options));
+  return Exit::Ok;
+}
+
 Exit print_page(const DocOptions& options) {
   if (options.page == "-" || options.page.ends_with(".mms")) return print_script(options);
+  if (options.page.ends_with(".md")) return print_markdown(options);
   std::vector<std::string> names;
   for (const Document& page : documents()) {
     if (page.name == options.page) {
@@ -105,18 +114,22 @@ Exit doc(const DocOptions& options) {
 
 Verb doc_verb() {
   auto options = std::make_shared<DocOptions>();
-  Verb verb{"doc",
-            "Print a page of the reference or the manual of a script, or list the pages",
-            "The manual of a script is made of its /// comments.\n\nExamples:\n  mms doc\n"
-            "  mms doc stdlib | less\n  mms doc --html marble.mms > marble.html",
-            {},
-            [options] { return doc(*options); }};
+  Verb verb{
+      "doc",
+      "Print a page of the reference or the manual of a script, or list the pages",
+      "The manual of a script is made of its /// comments. The options of linking are taken as\n"
+      "by every verb that reads scripts; the manual does not depend on them.\n\nExamples:\n  mms "
+      "doc\n"
+      "  mms doc stdlib | less\n  mms doc --html marble.mms > marble.html",
+      {},
+      [options] { return doc(*options); }};
   verb.add({"PAGE", &options->page, "",
-            "The page, or a script (*.mms, - is standard input); none lists the pages"});
+            "The page, a script (*.mms, - is standard input) or a page of your own (*.md); none "
+            "lists the pages"});
   verb.add({"--html", &options->html, "", "As one HTML page with a search box, not as Markdown"});
   verb.add({"--write", &options->write, "DIR", "Write all pages to a folder"});
   verb.add({"--check", &options->check, "DIR", "Fail if a page in a folder is out of date"});
-  add_colour_option(verb, *options);
+  add_script_options(verb, *options);
   return verb;
 }
 

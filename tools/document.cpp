@@ -246,6 +246,11 @@ std::string passes_document() {
   for (const lang::PassInfo& pass : lang::passes())
     text += fmt::format("| `{}` | -O{} | {} |\n", pass.name, static_cast<int>(pass.from),
                         cell(pass.doc));
+  text +=
+      "\nThe bytecode that comes out is lowered when it is loaded: operands are read where they "
+      "lie,\nslots are used again, library calls that depend on the frame alone run once for a "
+      "batch\n(uniformity), tail calls become loops, and frequent pairs of operations one. "
+      "`mms disasm` shows\nit beside the source.\n";
   return text;
 }
 

@@ -51,15 +51,18 @@ Exit format_all(const FormatOptions& options) {
 
 Verb fmt_verb() {
   auto options = std::make_shared<FormatOptions>();
-  Verb verb{"fmt",
-            "Lay scripts out: indentation, spaces, lines of 100 columns; nothing to choose",
-            "A script with syntax errors is left alone. Tokens and comments are never changed.\n\n"
-            "Examples:\n  mms fmt marble.mms\n  mms fmt --check *.mms\n  mms fmt - < marble.mms",
-            {},
-            [options] { return format_all(*options); }};
+  Verb verb{
+      "fmt",
+      "Lay scripts out: indentation, spaces, lines of 100 columns; nothing to choose",
+      "A script with syntax errors is left alone. Tokens and comments are never changed. The\n"
+      "options of linking are taken as by every verb that reads scripts; the layout does not\n"
+      "depend on them.\n\n"
+      "Examples:\n  mms fmt marble.mms\n  mms fmt --check *.mms\n  mms fmt - < marble.mms",
+      {},
+      [options] { return format_all(*options); }};
   add_files(verb, *options, "Scripts, each written anew in its place");
   verb.add({"--check", &options->check, "", "Change nothing; fail if a script is not laid out"});
-  add_colour_option(verb, *options);
+  add_script_options(verb, *options);
   return verb;
 }
 

@@ -22,7 +22,8 @@ nav a { display: block; color: inherit; text-decoration: none; overflow: hidden;
 nav a.part { font-weight: bold; margin-top: .6rem; }
 main { padding: 1rem 2rem; max-width: 52rem; min-width: 0; }
 code, pre { font: .9em ui-monospace, monospace; background: var(--code); border-radius: 3px; }
-code { padding: 0 .2em; } pre { padding: .6em; overflow: auto; } pre code { background: none; }
+code { padding: 0 .2em; } pre { padding: .6em; overflow: auto; } pre code { background: none;
+  padding: 0; }
 h3 code { font-size: 1em; } table { border-collapse: collapse; display: block; overflow: auto; }
 td, th { border: 1px solid var(--line); padding: .2em .5em; text-align: left; vertical-align: top; }
 [hidden] { display: none !important; }
@@ -99,18 +100,23 @@ std::size_t picture(std::string_view text, std::string& out) {
   return end + 1;
 }
 
-/// Code, bold, pictures and links of a line.
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+/// Code, bold, emphasis, pictures and links of a line.
 std::string inlines(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
     const std::string_view rest = text.substr(i);
     const bool code = rest[0] == '`', bold = rest.starts_with("**");
+    const bool emphasis = !bold && rest.size() > 1 && rest[0] == '*' && is_word(rest[1]);
     const std::size_t mark = bold ? 2 : 1;
-    const std::size_t end = code ? rest.find('`', 1) : bold ? rest.find("**", 2) : rest.npos;
+    const std::size_t end = code || emphasis ? rest.find(rest[0], 1)
+                            : bold           ? rest.find("**", 2)
+                                             : rest.npos;
     if (end != rest.npos) {
       const std::string_view inside = rest.substr(mark, end - mark);
-      out += code ? fmt::format("<code>{}</code>", escaped(inside))
-                  : fmt::format("<strong>{}</strong>", inlines(inside));
+      const char* tag = code ? "code" : bold ? "strong" : "em";
+      out += fmt::format("<{0}>{1}</{0}>", tag, code ? escaped(inside) : inlines(inside));
       i += end + mark;
       continue;
     }
@@ -128,6 +134,13 @@ std::string inlines(std::string_view text) {
     i += escape ? 2 : 1;
   }
   return out;
+}
+
+/// A signature's name; other headings as they are.
+std::string_view short_name(std::string_view heading) {
+  const std::size_t end = heading.find('(');
+  if (end == 0 || end == heading.npos || heading[end - 1] == ' ') return heading;
+  return heading.substr(heading.rfind(' ', end) + 1, end - heading.rfind(' ', end) - 1);
 }
 
 /// Turns lines into HTML, block by block.
@@ -168,7 +181,7 @@ class Page {
   std::string id_of(std::string_view text) {
     std::string id;
     for (const char c : text) {
-      if (std::isalnum(static_cast<unsigned char>(c)) || c == '_')
+      if (is_word(c))
         id += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
       else if (c == ' ' || c == '-')
         id += '-';
@@ -186,8 +199,9 @@ class Page {
     end_section();
     const std::string id = id_of(name);
     body += fmt::format("<section id=\"{0}\">\n<h{1}>{2}</h{1}>\n", id, level, text);
-    index += fmt::format("<a{} href=\"#{}\">{}</a>\n", level == 2 ? " class=\"part\"" : "", id,
-                         escaped(name));
+    index +=
+        fmt::format("<a{} href=\"#{}\" title=\"{}\">{}</a>\n", level == 2 ? " class=\"part\"" : "",
+                    id, escaped(name), escaped(short_name(name)));
     open_ = true;
   }
 

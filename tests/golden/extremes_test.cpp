@@ -59,6 +59,12 @@ const std::vector<Extreme> kExtremes = {
               fmt::format("const k{} = 1;", kMany);
      },
      "E0316"},
+    {"more constants than 16 bits count, each of the last",
+     [] {
+       return "const k0 = 1;\n" +
+              lines(70000, [](int i) { return fmt::format("const k{} = k{} + 1;\n", i + 1, i); });
+     },
+     ""},
     {"constants in a circle",
      [] {
        return lines(1000,

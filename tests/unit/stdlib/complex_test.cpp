@@ -102,58 +102,35 @@ TEST_CASE("every complex function of one argument has an oracle here") {
   }
 }
 
-TEST_CASE("signed zeros and infinities of the inverse functions are those of C99 Annex G") {
+TEST_CASE("zeros, infinities and NaN of every complex function are those of C99 Annex G") {
   const float inf = INFINITY;
-  const float parts[] = {0, 0.5f, 1, 2, inf};
-  for (const Oracle& oracle : kOracles) {
-    if (!oracle.name.starts_with("a")) continue;
-    for (int i = 0; i < 100; ++i) {
-      const float re = parts[i % 5] * (i / 5 % 2 ? -1.0f : 1.0f);
-      const float im = parts[i / 10 % 5] * (i / 50 ? -1.0f : 1.0f);
+  const float parts[] = {0.0f, 0.5f, 1.0f, 2.0f, 800.0f, inf, NAN};
+  for (const Oracle& oracle : kOracles)
+    for (int i = 0; i < 14 * 14; ++i) {
+      const float re = parts[i % 7] * (i / 7 % 2 ? -1.0f : 1.0f);
+      const float im = parts[i / 14 % 7] * (i / 98 ? -1.0f : 1.0f);
+      const bool unknown = std::isnan(re) || std::isnan(im);
+      if (unknown && oracle.name.starts_with("a")) continue;  // NaN in both parts: of_limited
       INFO(oracle.name << " " << re << " " << im);
       const LC exact = oracle.exact(LC(re, im));
       const auto got = run<float>(row_of(oracle.name), {{re}, {im}});
-      CHECK(same_bits(got[0][0], float(exact.real())));
-      CHECK(same_bits(got[1][0], float(exact.imag())));
-    }
-  }
-}
-
-TEST_CASE("infinities and signed zeros of exp, log and sqrt are those of C99") {
-  const float inf = INFINITY;
-  const float parts[] = {0.0f, -0.0f, 1.0f, -1.0f, inf, -inf, NAN};
-  for (std::string_view name : {"log", "sqrt"})
-    for (float re : parts)
-      for (float im : parts) {
-        INFO(name << " " << re << " " << im);
-        const C exact = name == "log" ? std::log(C(re, im)) : std::sqrt(C(re, im));
-        const auto got = run<float>(row_of(name), {{re}, {im}});
-        CHECK(same_bits(got[0][0], float(exact.real())));
-        CHECK(same_bits(got[1][0], float(exact.imag())));
+      const float expected[] = {float(exact.real()), float(exact.imag())};
+      // The standard leaves signs open where no angle tells them.
+      const bool turns =
+          !oracle.name.starts_with("a") && oracle.name != "log" && oracle.name != "sqrt";
+      const bool sideways = oracle.name == "sin" || oracle.name == "cos" || oracle.name == "tan";
+      const bool open = turns && (unknown || std::isinf(sideways ? re : im));
+      for (std::size_t part : {0u, 1u}) {
+        const float x = got[part][0], y = expected[part];
+        const bool edge = y == 0 || !std::isfinite(y);
+        if (!edge)
+          CHECK(ulp_error(x, part ? exact.imag() : exact.real()) <= row_of(oracle.name).max_ulp);
+        else if (open)
+          CHECK((std::isnan(y) ? std::isnan(x) : std::fabs(x) == std::fabs(y)));
+        else
+          CHECK(same_bits(x, y));
       }
-  for (float re : {inf, -inf})
-    for (float im : {0.0f, -0.0f, 1.0f, -1.0f}) {
-      INFO(re << " " << im);
-      const C exact = std::exp(C(re, im));
-      const auto got = run<float>(row_of("exp"), {{re}, {im}});
-      CHECK(same_bits(got[0][0], float(exact.real())));
-      CHECK(same_bits(got[1][0], float(exact.imag())));
     }
-}
-
-TEST_CASE("exp of an infinite real part where the angle is no number is that of C99") {
-  for (float im : {INFINITY, -INFINITY, float(NAN)}) {
-    INFO(im);
-    const auto none = run<float>(row_of("exp"), {{-INFINITY}, {im}});
-    CHECK(none[0][0] == 0.0f);  // of either sign
-    CHECK(none[1][0] == 0.0f);
-    const auto all = run<float>(row_of("exp"), {{INFINITY}, {im}});
-    CHECK(std::fabs(all[0][0]) == INFINITY);
-    CHECK(std::isnan(all[1][0]));
-    const auto neither = run<float>(row_of("exp"), {{-800.0f}, {im}});
-    CHECK(std::isnan(neither[0][0]));
-    CHECK(std::isnan(neither[1][0]));
-  }
 }
 
 TEST_CASE("complex pow, powi, polar, abs") {
