@@ -39,6 +39,8 @@ const lang::Source* Excerpts::source(std::uint32_t index) {
   lang::SourcePtr& s = sources_[name];
   for (const lang::Library::Module& m : standard_library().modules)
     if (name == "<" + std::string(m.name) + ">") s = lang::make_source(name, std::string(m.text));
+  for (const lang::Library::Script& m : standard_library().scripts)
+    if (name == "<" + std::string(m.name) + ">") s = lang::make_source(name, std::string(m.text));
   if (!s && !name.starts_with('<'))
     if (const auto file = read_source(name)) s = *file;
   return s.get();

@@ -31,7 +31,12 @@ const lang::Library& standard_library() {
       all.push_back({m.name, m.text, items[all.size()]});
     return all;
   }();
-  static const lang::Library library{stdlib::builtins(), modules};
+  static const std::vector<lang::Library::Script> scripts = [] {
+    std::vector<lang::Library::Script> all;
+    for (const stdlib::Script& s : stdlib::scripts()) all.push_back({s.name, s.text});
+    return all;
+  }();
+  static const lang::Library library{stdlib::builtins(), modules, scripts};
   return library;
 }
 
@@ -64,6 +69,8 @@ Result<lang::SourcePtr> read_source(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     if (!in) {
       const int cause = errno;
+      if (const auto* script = cause == ENOENT ? standard_library().script(path) : nullptr)
+        return lang::make_source(fmt::format("<{}>", script->name), std::string(script->text));
       return Error{path, fmt::format("cannot be read: {}", std::strerror(cause)),
                    cause == ENOENT ? "check the spelling and the folder you are in"
                                    : "check who may read it"};

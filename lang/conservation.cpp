@@ -14,9 +14,17 @@ std::optional<double> known_number(const Module& module, Ref r) {
   return c.type == vm::SlotType::Real ? c.f64 : c.integer;
 }
 
+namespace {
+
+/// `material NAME`.
+std::string_view head(const MaterialTree& m) {
+  return m.row->signature.substr(0, m.row->signature.find('('));
+}
+
+}  // namespace
+
 double stated_weight(const Module& module, const MaterialTree& m) {
-  const std::string_view signature = m.row->signature;
-  const std::string_view row = signature.substr(0, signature.find('('));
+  const std::string_view signature = m.row->signature, row = head(m);
   const double first = m.params.empty() ? -1 : known_number(module, m.params[0]).value_or(-1);
   const double weight = std::clamp(first, 0.0, 1.0);  // of a factor; unknown: 0
   const auto part = [&](std::size_t k) { return stated_weight(module, *m.children[k]); };
@@ -25,6 +33,18 @@ double stated_weight(const Module& module, const MaterialTree& m) {
   if (row == "material mix" && first >= 0) return (1 - weight) * part(0) + weight * part(1);
   if (m.children.size() == 2) return std::min(part(0), part(1));
   return signature.substr(row.size()).starts_with("(spectrum colour") ? std::max(first, 0.0) : 0;
+}
+
+MaterialPtr sole_part(const Module& module, const MaterialTree& m) {
+  const auto is = [&](std::size_t k, double x) {
+    return known_number(module, m.params[k]).value_or(-1) == x;
+  };
+  const std::string_view row = head(m);
+  if (row == "material mix") return is(0, 0) ? m.children[0] : is(0, 1) ? m.children[1] : nullptr;
+  if (row == "material scale") return is(0, 1) ? m.children[0] : nullptr;
+  if (row == "material fresnel_mix") return is(0, 1) ? m.children[0] : nullptr;
+  if (row == "material coat") return is(2, 1) && (is(0, 0) || is(1, 0)) ? m.children[1] : nullptr;
+  return nullptr;
 }
 
 }  // namespace mms::lang

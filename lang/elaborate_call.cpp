@@ -314,7 +314,8 @@ Value Elaborator::make_material(const vm::Builtin* row, const std::vector<Value>
   }
   Value v;
   v.type = TypeTable::kMaterial;
-  v.material = std::move(tree);
+  v.material = sole_part(module, *tree);
+  if (!v.material) v.material = std::move(tree);
   return v;
 }
 

@@ -87,7 +87,6 @@ void Elaborator::import(const Graph& from, const Import& i, Scope* scope) {
     return true;
   };
   auto take = [&](const std::string& key, const std::string& name, std::string text) {
-    dependencies.push_back(name);
     graphs_.push_back(parse(make_source(name, std::move(text)), diagnostics_));
     if (!i.as && !from.descriptors.empty() && !uses(from, graphs_.back()))
       diagnostics_.add(Diag::UnusedImport, i.span, i.file);
@@ -98,8 +97,9 @@ void Elaborator::import(const Graph& from, const Import& i, Scope* scope) {
   };
   if (options_.resolve) {
     if (auto found = options_.resolve(from.source->name, i.file)) {
-      if (!taken(found->name)) take(found->name, found->name, std::move(found->text));
-      return;
+      if (taken(found->name)) return;
+      dependencies.push_back(found->name);
+      return take(found->name, found->name, std::move(found->text));
     }
   } else {
     namespace fs = std::filesystem;
@@ -108,18 +108,26 @@ void Elaborator::import(const Graph& from, const Import& i, Scope* scope) {
     for (const fs::path& place : places) {
       const std::string key = import_key(place.string());
       if (taken(key)) return;
-      if (std::optional<std::string> text = read_file(place))
+      if (std::optional<std::string> text = read_file(place)) {
+        dependencies.push_back(place.string());
         return take(key, place.string(), std::move(*text));
+      }
     }
   }
   auto library_module = modules_.find(i.file);
   if (library_module != modules_.end()) return name_it(library_module->second);
+  if (const Library::Script* script = library_.script(i.file)) {
+    const std::string name = fmt::format("<{}>", script->name);
+    if (!taken(name)) take(name, name, std::string(script->text));
+    return;
+  }
   Scope* nothing = new_scope(nullptr);
   nothing->missing = true;  // nothing more is said of its names
   name_it(nothing);
   Diagnostic& d = diagnostics_.add(Diag::ImportNotFound, i.span, i.file);
   std::vector<std::string> modules;
   for (const auto& [name, unused] : modules_) modules.push_back(name);
+  for (const Library::Script& s : library_.scripts) modules.emplace_back(s.name);
   const std::string near = nearest(i.file, modules);
   d.help(near.empty() ? "files are looked for beside the script, then in each `-I` folder"
                       : fmt::format("did you mean the library's `{}`?", near));

@@ -26,6 +26,13 @@ Binding functions() {
 
 }  // namespace
 
+const Library::Script* Library::script(std::string_view written) const {
+  if (written.ends_with(".mms")) written.remove_suffix(4);
+  const auto found = std::find_if(scripts.begin(), scripts.end(),
+                                  [&](const Script& s) { return s.name == written; });
+  return found == scripts.end() ? nullptr : &*found;
+}
+
 void Elaborator::load_library() {
   library_scope_ = new_scope(nullptr, true);
   library_names_.reserve(library_.builtins.size() + 64);

@@ -33,6 +33,15 @@ struct Library {
     std::span<const Item> items = {};  ///< all of them; none: they are looked for at every link
   };
   std::span<const Module> modules;
+  /// A script that an import finds by its name, with or without `.mms`, where no file has it.
+  struct Script {
+    std::string_view name;  ///< `openpbr`
+    std::string_view text;
+  };
+  std::span<const Script> scripts = {};
+
+  /// The script that `written` names, or null.
+  const Script* script(std::string_view written) const;
 };
 
 enum class Level : std::uint8_t { O0, O1, O2 };

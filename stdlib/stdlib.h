@@ -26,7 +26,15 @@ struct Module {
   std::string_view text;
   std::span<const Item> items;  ///< every definition, in order
 };
-/// The `.mms` files of this folder, compiled in; `prelude` first.
+/// The `.mms` files of this folder that hold no surface, compiled in; `prelude` first.
 std::span<const Module> modules();
+
+/// A whole script with surfaces, volumes and params: `openpbr`.
+struct Script {
+  std::string_view name;  ///< file name without `.mms`
+  std::string_view text;
+};
+/// The other `.mms` files of this folder, compiled in.
+std::span<const Script> scripts();
 
 }  // namespace mms::stdlib

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Run while building: writes OUTPUT, a C++ source that holds the texts of modules written in the
-// language and says where in them each definition stands. `prelude` comes first.
+// language and says where in them each definition stands. `prelude` comes first. A file with
+// surfaces or volumes is no module but a script.
 //
 //   index_modules OUTPUT FILE.mms...
 #include <fmt/format.h>
@@ -32,8 +33,9 @@ std::vector<Definition> definitions(const Graph& graph) {
   return all;
 }
 
-/// The rows of one module: each definition reaches to the next one.
-bool write(const std::filesystem::path& file, std::string& items, std::string& modules) {
+/// The rows of one module: each definition reaches to the next one. Or that of one script.
+bool write(const std::filesystem::path& file, std::string& items, std::string& modules,
+           std::string& scripts) {
   std::ifstream in(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   Diagnostics diagnostics;
@@ -43,6 +45,10 @@ bool write(const std::filesystem::path& file, std::string& items, std::string& m
     return false;
   }
   const std::string name = file.stem().string();
+  if (!graph.descriptors.empty()) {
+    scripts += fmt::format("    {{\"{}\", R\"mms({})mms\"}},\n", name, text);
+    return true;
+  }
   items += fmt::format("constexpr Module::Item k_{}[] = {{\n", name);
   const std::vector<Definition> all = definitions(graph);
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -62,14 +68,16 @@ int main(int count, char** arguments) {
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
     return std::pair(a.stem() != "prelude", a) < std::pair(b.stem() != "prelude", b);
   });
-  std::string items, modules;
+  std::string items, modules, scripts;
   for (const std::filesystem::path& file : files)
-    if (!mms::lang::write(file, items, modules)) return 1;
+    if (!mms::lang::write(file, items, modules, scripts)) return 1;
   std::ofstream out(arguments[1]);
   out << "// Made from stdlib/*.mms by lang/index_modules.\n"
       << "#include \"stdlib/stdlib.h\"\n\nnamespace mms::stdlib {\nnamespace {\n\n"
       << items << "\nconstexpr Module kModules[] = {\n"
-      << modules << "};\n\n}  // namespace\n\n"
-      << "std::span<const Module> modules() { return kModules; }\n\n}  // namespace mms::stdlib\n";
+      << modules << "};\n\nconstexpr Script kScripts[] = {\n"
+      << scripts << "};\n\n}  // namespace\n\n"
+      << "std::span<const Module> modules() { return kModules; }\n"
+      << "std::span<const Script> scripts() { return kScripts; }\n\n}  // namespace mms::stdlib\n";
   return out.flush() ? 0 : 1;
 }

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layers of OpenPBR Surface 1.1 (Academy Software Foundation 2024) as functions, built from the
+// models of the library. Names, defaults and meanings are that specification's; what differs is said
+// at each function. `openpbr.mms` is the surface and the volume with a `param` for each name.
+
+/// The index whose reflectance at normal incidence is `weight` times that of `ior`: how OpenPBR
+/// weighs what is specular. 1 where weight is 0.
+/// >>> openpbr_index(1.5, 1.0)
+/// 1.5
+/// >>> openpbr_index(1.5, 0.0)
+/// 1
+/// >>> fresnel(1.0, openpbr_index(1.5, 0.25))
+/// 0.01
+real openpbr_index(real ior, weight)
+    root = (ior - 1.0) / (ior + 1.0);
+    r    = clamp(sqrt(max(weight, 0.0)) * root, -0.999, 0.999);
+    return (1.0 + r) / (1.0 - r);
+
+/// `openpbr_index` of what lies under a coat: index over that of the coat, turned over where it
+/// would be below 1, so that nothing is reflected in full (as OpenPBR).
+/// >>> openpbr_index_below(1.5, 1.0, 1.6, 0.0)
+/// 1.5
+/// >>> openpbr_index_below(1.5, 1.0, 1.6, 1.0)
+/// 1.0666...
+real openpbr_index_below(real ior, weight, coat_ior, coat_weight)
+    over = ior / mix(1.0, max(coat_ior, 1.0), saturate(coat_weight));
+    n    = select over, if over >= 1.0; 1.0 / max(over, 1e-3) otherwise; end;
+    return openpbr_index(n, weight);
+
+/// A mirror that is as rough as OpenPBR says, without Fresnel's factor: `microfacet` where it is
+/// anisotropic, else `glossy` of the same brightness at its middle, as only that keeps all energy
+/// over a base (`fresnel_mix`). `anisotropy` is in [0, 1], up to 0.9 exact.
+/// >>> openpbr_gloss(1.0, 0.3, 0.0)
+material openpbr_gloss(spectrum colour, real roughness, anisotropy)
+    alpha = max(roughness * roughness, 1e-4);
+    broad = 1.0 - clamp(anisotropy, 0.0, 0.999);
+    keep  = sqrt(sqrt(2.0 * broad / (1.0 + broad * broad)));
+    return select
+        glossy(colour, max(0.5 / (alpha * alpha) - 0.5, 0.0)), if anisotropy <= 0.0;
+        microfacet(colour, roughness * keep, min(anisotropy / 0.9, 1.0)) otherwise;
+    end;
+
+/// How much of the colour under a coat is left by light that goes to and fro between both: 1 for
+/// white. `amount` in [0, 1] is OpenPBR's coat_darkening times its coat_weight.
+/// >>> openpbr_darkening(1.0, 1.6, 1.0)
+/// 1
+/// >>> luminance(openpbr_darkening(0.2, 1.6, 1.0)) < 0.6
+/// true
+spectrum openpbr_darkening(spectrum colour, real coat_ior, amount)
+    n      = max(coat_ior, 1.0);
+    inside = 1.0 - (1.0 - (n - 1.0) / (4.08567 + 1.00071 * n)) / (n * n);
+    return 1.0 + amount * ((1.0 - inside) / (1.0 - inside * clamp(colour, 0.0, 1.0)) - 1.0);
+
+/// `base` under fibres that stand up: a broad `glossy` which shows as Fresnel's factor grows, of an
+/// index from 1.1 (a thin rim) to 2.3 (dust all over) with `roughness`. Unlike a `mix` with `sheen` it
+/// keeps the energy of both.
+/// >>> openpbr_fuzz(matte(0.2), 1.0, 0.5, 1.0)
+material openpbr_fuzz(material base, spectrum colour, real roughness, weight)
+    r = saturate(roughness);
+    return fresnel_mix(
+        base, glossy(colour, 4.0 * (1.0 - r)),
+        openpbr_index(1.1 + 1.2 * r, saturate(weight))
+    );
+
+/// The index, by wavelength, that reflects at normal incidence what `ior` does under a film of
+/// `thickness` in metres and index `film_ior`, as far as `weight`.
+/// >>> openpbr_filmed(1.5, 0.0, 300nm, 1.4)
+/// 1.5
+/// >>> openpbr_filmed(1.5, 1.0, 0.0, 1.4)
+/// 1.5
+spectrum openpbr_filmed(real ior, weight, thickness, film_ior)
+    shown = thin_film(1.0, thickness, film_ior, ior + 0i);
+    root  = sqrt(clamp(mix(spectrum(fresnel(1.0, ior)), shown, saturate(weight)), 0.0, 0.999));
+    return select spectrum(ior), if weight <= 0.0; (1.0 + root) / (1.0 - root) otherwise; end;
+
+/// OpenPBR's metal: `colour` is its reflectance at normal incidence, exactly; `edge` the tint at its
+/// rim, 1 for none. OpenPBR's Schlick curve through 82 degrees is here the exact one of a complex
+/// index (Gulbrandsen 2014). A film of `film_weight` and `thickness` in metres lies on it.
+/// >>> openpbr_metal(rgb(0.9, 0.6, 0.3), 1.0, 0.3, 0.0, 0.0, 0.0, 1.4)
+material openpbr_metal(
+    spectrum colour, edge,
+    real roughness, anisotropy, film_weight, thickness, film_ior
+)
+    r     = clamp(colour, 0.0, 0.9999);
+    g     = clamp(edge, 0.0, 1.0);
+    root  = sqrt(r);
+    n     = g * (1.0 - r) / (1.0 + r) + (1.0 - g) * (1.0 + root) / (1.0 - root);
+    k     = sqrt(max((r * (n + 1.0)^2 - (n - 1.0)^2) / (1.0 - r), 0.0));
+    broad = 1.0 - clamp(anisotropy, 0.0, 0.999);
+    rough = roughness * sqrt(sqrt(2.0 * broad / (1.0 + broad * broad)));
+    along = min(anisotropy / 0.9, 1.0);
+    return mix(
+        conductor(n, k, rough, along),
+        film_conductor(n, k, film_ior, thickness, $wavelength, rough, along),
+        saturate(film_weight)
+    );
+
+/// OpenPBR's emission, for the output `emission`: white is D65 of that luminance in candela per
+/// square metre. A coat takes its colour of it once.
+/// >>> openpbr_emission(683.002 * 105.671) / illuminant_d65($wavelength)
+/// 1
+spectrum openpbr_emission(
+    real emission_luminance = 0.0,
+    spectrum emission_color = 1.0,
+    real coat_weight = 0.0,
+    spectrum coat_color = 1.0
+)
+    // 683.002 lm/W times the sum over 1 nm of D65 and the observer, as `illuminant_d65` has it.
+    white   = emission_luminance / (683.002 * 105.671) * illuminant_d65($wavelength);
+    through = transmittance(absorption_from(coat_color, 1.0), 0.5 * saturate(coat_weight));
+    return select
+        max(white * emission_color, 0.0) * through, if emission_luminance > 0.0;
+        spectrum(0.0) otherwise;
+    end;
+
+/// What fills an `openpbr` body: per metre, and the mean cosine of its scattering.
+/// >>> openpbr_medium(1.0, 0.5, 0.0).anisotropy
+/// 0
+openpbr_medium typeid struct
+    spectrum scattering, absorption;
+    real anisotropy;
+end
+
+/// The inside of OpenPBR's surface, for a volume: `inside = openpbr_inside(subsurface_weight = 1);
+/// scattering = inside.scattering; absorption = inside.absorption; phase =
+/// henyey_greenstein(inside.anisotropy);`. Lengths are in metres. Of both transmission and
+/// subsurface it is the mixture, by their shares of the surface. `subsurface_color` is what a deep
+/// body of it sends back, found by the fit of Kulla and Conty (2017).
+/// >>> openpbr_inside(transmission_weight = 1.0, transmission_color = 0.5, transmission_depth = 2.0).absorption
+/// 0.34657359
+/// >>> luminance(openpbr_inside(subsurface_weight = 1.0).absorption) < 0.1
+/// true
+openpbr_medium openpbr_inside(
+    real transmission_weight = 0.0,
+    spectrum transmission_color = 1.0,
+    real transmission_depth = 0.0,
+    spectrum transmission_scatter = 0.0,
+    real transmission_scatter_anisotropy = 0.0, subsurface_weight = 0.0,
+    spectrum subsurface_color = 0.8,
+    real subsurface_radius = 1.0,
+    spectrum subsurface_radius_scale = rgb(1.0, 0.5, 0.25),
+    real subsurface_scatter_anisotropy = 0.0
+)
+    glass = saturate(transmission_weight);
+    deep  = (1.0 - glass) * saturate(subsurface_weight);
+    share = deep / max(glass + deep, 1e-9);
+
+    depth    = max(transmission_depth, 1e-6);
+    scatters = select
+        max(transmission_scatter, 0.0) / depth, if transmission_depth > 0.0;
+        spectrum(0.0) otherwise;
+    end;
+    absorbs = select
+        max(absorption_from(transmission_color, depth) - scatters, 0.0),
+            if transmission_depth > 0.0;
+        spectrum(0.0) otherwise;
+    end;
+
+    a = clamp(subsurface_color, 0.0, 1.0);
+    g = clamp(subsurface_scatter_anisotropy, -0.99, 0.99);
+    s = clamp(
+        4.09712 + 4.20863 * a - sqrt(9.59217 + 41.6808 * a + 17.7126 * a * a), 0.0, 1.0
+    );
+    albedo = (1.0 - s * s) / (1.0 - g * s * s);
+    each   = 1.0 / max(subsurface_radius * subsurface_radius_scale, 1e-6);
+    spectrum of(spectrum clear, filled) = select
+        clear, if deep <= 0.0;
+        mix(clear, filled, share) otherwise;
+    end;
+    return openpbr_medium(
+        scattering = of(scatters, albedo * each),
+        absorption = of(absorbs, (1.0 - albedo) * each),
+        anisotropy = mix(clamp(transmission_scatter_anisotropy, -0.99, 0.99), g, share)
+    );
+
+/// OpenPBR's surface: `surface s bsdf = openpbr(base_color = rgb(0.6, 0.05, 0.02), coat_weight = 1); end`.
+/// Lengths of the film are in micrometres, as there. What lies inside is `openpbr_inside`, for a
+/// volume of the same name, which both transmission and subsurface need; emission is
+/// `openpbr_emission`, and opacity the output `scattering` of the surface.
+///
+/// The specular part of an opaque base is a `glossy` (`openpbr_gloss`), coats and weights are
+/// indices (`openpbr_index`), fuzz is `openpbr_fuzz`; rough glass has no anisotropy, a film on it is
+/// smooth, and one on an opaque base has the colours of normal incidence everywhere.
+/// >>> openpbr(base_color = 0.5, base_metalness = 1.0)
+/// >>> openpbr(base_color = rgb(0.6, 0.05, 0.02), coat_weight = 1.0)
+material openpbr(
+    real base_weight = 1.0,
+    spectrum base_color = 0.8,
+    real base_diffuse_roughness = 0.0, base_metalness = 0.0, specular_weight = 1.0,
+    spectrum specular_color = 1.0,
+    real specular_roughness = 0.3, specular_roughness_anisotropy = 0.0, specular_ior = 1.5,
+    transmission_weight = 0.0,
+    spectrum transmission_color = 1.0,
+    real transmission_depth = 0.0, transmission_dispersion_scale = 0.0,
+    transmission_dispersion_abbe_number = 20.0, subsurface_weight = 0.0, coat_weight = 0.0,
+    spectrum coat_color = 1.0,
+    real coat_roughness = 0.0, coat_roughness_anisotropy = 0.0, coat_ior = 1.6,
+    coat_darkening = 1.0, fuzz_weight = 0.0,
+    spectrum fuzz_color = 1.0,
+    real fuzz_roughness = 0.5, thin_film_weight = 0.0, thin_film_thickness = 0.5,
+    thin_film_ior = 1.4
+)
+    film  = thin_film_thickness * 1um;
+    dark  = saturate(coat_weight) * saturate(coat_darkening);
+    under = saturate(base_weight) * clamp(base_color, 0.0, 1.0);
+    base  = under * openpbr_darkening(under, coat_ior, dark);
+
+    diffuse = select
+        matte(base), if base_diffuse_roughness <= 0.0;
+        rough_matte(base, base_diffuse_roughness) otherwise;
+    end;
+    below  = openpbr_index_below(specular_ior, specular_weight, coat_ior, coat_weight);
+    opaque = fresnel_mix(
+        diffuse,
+        openpbr_gloss(specular_color, specular_roughness, specular_roughness_anisotropy),
+        openpbr_filmed(below, thin_film_weight, film, thin_film_ior)
+    );
+
+    // Glass and subsurface are one interface; what tells them apart is inside.
+    through = saturate(transmission_weight);
+    share   = 1.0 - (1.0 - through) * (1.0 - saturate(subsurface_weight));
+    tint    = select
+        mix(spectrum(1.0), transmission_color, through / max(share, 1e-9)),
+            if transmission_depth <= 0.0;
+        spectrum(1.0) otherwise;
+    end;
+    bent = select
+        abbe_glass(
+            specular_ior,
+            max(transmission_dispersion_abbe_number, 1e-3) / transmission_dispersion_scale
+        ),
+            if transmission_dispersion_scale > 0.0;
+        spectrum(specular_ior) otherwise;
+    end;
+    clear = mix(
+        dielectric(bent, specular_roughness, specular_color, tint),
+        film_dielectric(bent, thin_film_ior, film, $wavelength),
+        saturate(thin_film_weight)
+    );
+
+    metal = saturate(specular_weight) * openpbr_metal(
+        base, specular_color, specular_roughness, specular_roughness_anisotropy,
+        thin_film_weight, film, thin_film_ior
+    );
+    body  = mix(mix(opaque, clear, share), metal, saturate(base_metalness));
+    shown = coat(
+        openpbr_gloss(1.0, coat_roughness, coat_roughness_anisotropy),
+        body,
+        0.5 * saturate(coat_weight),
+        absorption_from(coat_color, 1.0),
+        openpbr_index(coat_ior, saturate(coat_weight))
+    );
+    return openpbr_fuzz(shown, fuzz_color, fuzz_roughness, fuzz_weight);

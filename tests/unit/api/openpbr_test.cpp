@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// stdlib/openpbr.mms as a script uses it: what it keeps in a white furnace, and that no setting of
+// its params gives anything but light.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/sanitized.h"
+#include "tests/unit/api/linked.h"
+
+namespace mms::api {
+namespace {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// `import "openpbr";` with these params, linked.
+struct OpenPbr {
+  explicit OpenPbr(const Settings& settings, int level = O2) {
+    MMsGraph* graph = mmsMkGraph();
+    mmsParseString(*graph, std::string("import \"openpbr\"; paint alias openpbr;"));
+    mmsAddGraph(*program, *graph);
+    for (const auto& [name, value] : settings) mmsSetParam(program, name.c_str(), value.c_str());
+    if (mmsLinkProgram(*program, level)) context = mmsMkContext(*program);
+    log = std::string(mmsGetGraphLog(*graph)) + mmsGetProgramLog(*program);
+    mmsDeleteGraph(graph);
+  }
+  ~OpenPbr() {
+    mmsDeleteContext(context);
+    mmsDeleteProgram(program);
+  }
+  OpenPbr(const OpenPbr&) = delete;
+  OpenPbr& operator=(const OpenPbr&) = delete;
+  MMsSurface* surface() const { return mmsGetSurface(program, "paint"); }
+
+  MMsProgram* program = mmsMkProgram();
+  MMsContext* context = nullptr;
+  std::string log;
+};
+
+/// The weights of samples along one direction, at the first wavelength.
+struct Weights {
+  double mean = 0, error = 0;  ///< `error`: standard, were the samples independent
+  int bad = 0;                 ///< numbers that are not finite or negative, densities that are 0
+};
+
+/// Points of an additive recurrence (R_3: g^4 = g + 1), so that means err by less than `error`.
+Weights weights(const OpenPbr& p, double cosine, std::size_t count) {
+  const float wavelengths[8] = {550e-9f, 430e-9f, 470e-9f, 510e-9f,
+                                590e-9f, 630e-9f, 670e-9f, 710e-9f};
+  std::vector<float> wo(3 * count), u(3 * count), wi(3 * count), f(8 * count), pdf(8 * count),
+      metres(8 * count);
+  std::vector<unsigned char> flags(count);
+  constexpr double kStep[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+  for (std::size_t i = 0; i < count; ++i) {
+    wo[i] = float(0.8 * std::sqrt(1 - cosine * cosine));
+    wo[count + i] = float(0.6 * std::sqrt(1 - cosine * cosine));
+    wo[2 * count + i] = float(cosine);
+    for (std::size_t k = 0; k < 3; ++k)
+      u[k * count + i] =
+          std::min(float(std::fmod(0.5 + kStep[k] * double(i), 1.0)), 0x1.fffffep-1f);
+    for (std::size_t c = 0; c < 8; ++c) metres[c * count + i] = wavelengths[c];
+  }
+  const MMsInput input{"wavelength", metres.data()};
+  const MMsPoints points{count, &input, 1};
+  Weights w;
+  if (!mmsSampleBsdf(p.context, p.surface(), &points, wo.data(), u.data(), wi.data(), f.data(),
+                     pdf.data(), flags.data()))
+    return {0, 0, 1};
+  double sum = 0, squares = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(flags[i] & MMS_SAMPLED)) continue;
+    for (std::size_t c = 0; c < 8; ++c)
+      w.bad += !(std::isfinite(f[c * count + i]) && f[c * count + i] >= 0) ||
+               !(std::isfinite(pdf[c * count + i]) && pdf[c * count + i] >= 0);
+    w.bad += !(pdf[i] > 0);
+    const double weight = double(f[i]) * std::abs(double(wi[2 * count + i])) / double(pdf[i]);
+    sum += weight;
+    squares += weight * weight;
+  }
+  w.mean = sum / double(count);
+  w.error = std::sqrt(std::max(0.0, squares / double(count) - w.mean * w.mean) / double(count));
+  return w;
+}
+
+TEST_CASE("openpbr: its lossless settings keep all light") {
+  const struct {
+    const char* what;
+    Settings settings;
+    double lost;  ///< at most: what the models of it are known to lose
+  } cases[] = {
+      // A matte under a gloss: 1e-3 (materials/combine.h).
+      {"opaque", {{"base_color", "spectrum(1.0)"}}, 1e-3},
+      {"rough", {{"base_color", "spectrum(1.0)"}, {"specular_roughness", "0.9"}}, 1e-3},
+      {"bare", {{"base_color", "spectrum(1.0)"}, {"specular_weight", "0"}}, 1e-5},
+      // The reflectance of metal ends at 0.9999 at normal incidence.
+      {"metal", {{"base_color", "spectrum(1.0)"}, {"base_metalness", "1"}}, 1e-3},
+      {"smooth film",
+       {{"transmission_weight", "1"},
+        {"specular_ior", "1"},
+        {"specular_roughness", "0"},
+        {"thin_film_weight", "1"},
+        {"thin_film_ior", "1.33"}},
+       1e-5},
+  };
+  const std::size_t count = kSanitized ? 1024 : 16384;
+  for (const auto& c : cases) {
+    INFO(c.what);
+    const OpenPbr p(c.settings);
+    REQUIRE_MESSAGE(p.context, p.log);
+    for (const double cosine : {1.0, 0.7, 0.3, 0.05}) {
+      INFO(cosine);
+      const Weights w = weights(p, cosine, count);
+      CHECK(w.bad == 0);
+      CHECK(std::abs(w.mean - 1) < c.lost + 5 * w.error + 1e-5);  // 1e-5: float
+    }
+  }
+}
+
+TEST_CASE("openpbr: params at the ends of their ranges give light, and no more than there was") {
+  const OpenPbr defaults({});
+  REQUIRE_MESSAGE(defaults.context, defaults.log);
+  std::vector<Settings> all;
+  MMsParamInfo info;
+  for (std::size_t k = 0; mmsGetParam(defaults.program, k, &info); ++k) {
+    const std::string name = info.name;
+    if (std::string(info.type) == "spectrum")
+      for (const char* value : {"spectrum(0.0)", "spectrum(1.0)", "rgb(1, 0, 0)"})
+        all.push_back({{name, value}});
+    if (!info.has_range) continue;
+    for (const double end : {info.lower, info.upper}) all.push_back({{name, std::to_string(end)}});
+  }
+  CHECK(all.size() > 60);
+  // And many at once: each layer there, with the others at either end.
+  for (int k = 0; k < (kSanitized ? 4 : 16); ++k)
+    all.push_back({{"base_metalness", k & 1 ? "0.5" : "0"},
+                   {"transmission_weight", k & 2 ? "0.5" : "0"},
+                   {"coat_weight", k & 4 ? "1" : "0.3"},
+                   {"fuzz_weight", k & 8 ? "1" : "0.3"},
+                   {"thin_film_weight", k & 1 ? "1" : "0"},
+                   {"specular_roughness_anisotropy", k & 2 ? "1" : "0"},
+                   {"specular_roughness", k & 4 ? "0" : "1"},
+                   {"coat_roughness", k & 8 ? "0.5" : "0"},
+                   {"transmission_dispersion_scale", k & 8 ? "1" : "0"},
+                   {"base_color", "spectrum(1.0)"}});
+  const std::size_t count = kSanitized ? 64 : 1024;
+  for (const Settings& settings : all) {
+    std::string what;
+    for (const auto& [name, value] : settings) what += name + "=" + value + " ";
+    INFO(what);
+    const OpenPbr p(settings);
+    REQUIRE_MESSAGE(p.context, p.log);
+    for (const double cosine : {1.0, 0.3, 0.01}) {
+      INFO(cosine);
+      const Weights w = weights(p, cosine, count);
+      CHECK(w.bad == 0);
+      // From outside in, radiance is compressed by refraction: no weight above 1 in the mean.
+      CHECK(w.mean < 1 + 3e-3 + 5 * w.error);
+    }
+  }
+}
+
+TEST_CASE("openpbr: every level of optimisation gives the same bits") {
+  const Settings settings{{"base_color", "rgb(0.7, 0.3, 0.2)"},
+                          {"base_metalness", "0.4"},
+                          {"transmission_weight", "0.3"},
+                          {"coat_weight", "0.7"},
+                          {"fuzz_weight", "0.5"},
+                          {"thin_film_weight", "0.5"}};
+  const OpenPbr plain(settings, O0), best(settings, O2);
+  REQUIRE_MESSAGE(plain.context, plain.log);
+  REQUIRE_MESSAGE(best.context, best.log);
+  for (const double cosine : {0.9, 0.2}) {
+    const Weights a = weights(plain, cosine, 256), b = weights(best, cosine, 256);
+    CHECK(a.mean == b.mean);
+    CHECK(a.error == b.error);
+    CHECK(a.bad + b.bad == 0);
+  }
+}
+
+TEST_CASE("openpbr: what is not asked for is not there") {
+  const OpenPbr p({});
+  REQUIRE_MESSAGE(p.context, p.log);
+  MMsOutputInfo info;
+  REQUIRE(mmsGetSurfaceOutput(p.surface(), "emission", &info));
+  CHECK(info.constant);
+  CHECK(!info.spectral);
+}
+
+}  // namespace
+}  // namespace mms::api
