@@ -219,7 +219,9 @@ SurfacePoint Lights::place(const Choice& c, double u, double v) const {
   double rest = 0;
   const int t = step_of(c.triangles.data(), int(m->triangles.size()), u, rest);
   const double r = std::sqrt(rest);
-  return surface_at(*m, std::uint32_t(t), r * (1 - v), r * v);
+  SurfacePoint at = surface_at(*m, std::uint32_t(t), r * (1 - v), r * v);
+  at.error += scene_->objects[c.object].slack;
+  return at;
 }
 
 EmissionPoint Lights::sample_point(double u, double v) const {
