@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 namespace mms::renderer {
 
@@ -27,6 +28,8 @@ void Crossings::add(const Hit& h) {
 }
 
 namespace {
+
+const auto kFlags = RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
 
 struct Shared {  // what a callback of Embree needs to know of its object
   const Shape* shape = nullptr;
@@ -86,6 +89,17 @@ void analytic_occluded(const RTCOccludedFunctionNArguments* a) {
     ray.tfar = -std::numeric_limits<float>::infinity();
 }
 
+/// Of a mesh that several objects share: which one it is says the instance.
+void instance_filter(const RTCFilterFunctionNArguments* a) {
+  if (!a->valid[0]) return;
+  const auto& hit = *reinterpret_cast<const RTCHit*>(a->hit);
+  if (!static_cast<const Shared*>(a->geometryUserPtr)[hit.instID[0]].collect) return;
+  a->valid[0] = 0;
+  const auto& ray = *reinterpret_cast<const RTCRay*>(a->ray);
+  if (Crossings* c = crossings_of(a->context))
+    c->add({int(hit.instID[0]), hit.primID, ray.tfar, hit.u, hit.v});
+}
+
 void collect_filter(const RTCFilterFunctionNArguments* a) {
   if (!a->valid[0]) return;
   a->valid[0] = 0;
@@ -100,54 +114,117 @@ void collect_filter(const RTCFilterFunctionNArguments* a) {
 struct Accel::State {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
-  std::vector<Shared> shared;
+  std::vector<Shared> shared;  ///< of each object
   bool any_collected = false;
 
+  std::map<int, RTCScene> meshes;  ///< that several objects share, by the first of them
+
+  RTCGeometry geometry_of(const Mesh& mesh) const {
+    RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* p = static_cast<float*>(rtcSetNewGeometryBuffer(
+        g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.positions.size()));
+    for (Vec3f v : mesh.positions) *p++ = v.x, *p++ = v.y, *p++ = v.z;
+    auto* t = static_cast<unsigned*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0,
+                                                             RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
+                                                             mesh.triangles.size()));
+    for (const auto& corners : mesh.triangles)
+      for (std::uint32_t c : corners) *t++ = c;
+    return g;
+  }
+
+  void attach(RTCScene to, RTCGeometry g, unsigned id) {
+    rtcCommitGeometry(g);
+    rtcAttachGeometryByID(to, g, id);
+    rtcReleaseGeometry(g);
+  }
+
+  /// What stands in the scene for a mesh that is there several times: `o` where `first` is, moved.
+  RTCGeometry instance(const Object& o, const Object& first, int number) {
+    RTCScene& mesh = meshes[number];
+    if (!mesh) {
+      mesh = rtcNewScene(device);
+      rtcSetSceneFlags(mesh, kFlags);
+      RTCGeometry g = geometry_of(std::get<Mesh>(first.shape));
+      rtcSetGeometryUserData(g, shared.data());
+      rtcSetGeometryIntersectFilterFunction(g, instance_filter);
+      rtcSetGeometryOccludedFilterFunction(g, instance_filter);
+      attach(mesh, g, 0);
+      rtcCommitScene(mesh);
+    }
+    RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(g, mesh);
+    rtcSetGeometryTimeStepCount(g, 1);
+    const auto moved = [&](Vec3d p) { return o.transform.point(first.transform.inverse_point(p)); };
+    const Vec3d zero = moved({0, 0, 0});
+    float columns[12];
+    float* c = columns;
+    for (const Vec3d v :
+         {moved({1, 0, 0}) - zero, moved({0, 1, 0}) - zero, moved({0, 0, 1}) - zero, zero})
+      *c++ = float(v.x), *c++ = float(v.y), *c++ = float(v.z);
+    constexpr float kIdentity[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+    rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
+                            &o == &first ? kIdentity : columns);
+    return g;
+  }
+
   void add(unsigned id, const Object& object, bool collect) {
-    shared[id] = {&object.shape, collect};
-    any_collected |= collect;
-    RTCGeometry g = nullptr;
-    if (const Mesh* mesh = std::get_if<Mesh>(&object.shape)) {
-      g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-      auto* p = static_cast<float*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                            RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                            mesh->positions.size()));
-      for (Vec3f v : mesh->positions) *p++ = v.x, *p++ = v.y, *p++ = v.z;
-      auto* t = static_cast<unsigned*>(
-          rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                  3 * sizeof(unsigned), mesh->triangles.size()));
-      for (const auto& corners : mesh->triangles)
-        for (std::uint32_t c : corners) *t++ = c;
-      if (collect) {
-        rtcSetGeometryIntersectFilterFunction(g, collect_filter);
-        rtcSetGeometryOccludedFilterFunction(g, collect_filter);
-      }
-    } else {
-      g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    const Mesh* mesh = std::get_if<Mesh>(&object.shape);
+    RTCGeometry g = mesh ? geometry_of(*mesh) : rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    if (mesh && collect) {
+      rtcSetGeometryIntersectFilterFunction(g, collect_filter);
+      rtcSetGeometryOccludedFilterFunction(g, collect_filter);
+    }
+    if (!mesh) {
       rtcSetGeometryUserPrimitiveCount(g, 1);
       rtcSetGeometryUserData(g, &shared[id]);
       rtcSetGeometryBoundsFunction(g, analytic_bounds, nullptr);
       rtcSetGeometryIntersectFunction(g, analytic_intersect);
       rtcSetGeometryOccludedFunction(g, analytic_occluded);
     }
-    rtcCommitGeometry(g);
-    rtcAttachGeometryByID(scene, g, id);
-    rtcReleaseGeometry(g);
+    attach(scene, g, id);
   }
 };
+
+namespace {
+
+/// For each object the one whose mesh it shares, itself included; -1 for those that share none.
+/// What was displaced is another mesh.
+std::vector<int> sharing(const SceneData& scene) {
+  std::vector<int> first(scene.objects.size(), -1);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& o = scene.objects[i];
+    if (o.instance_of < 0 || o.displaced) continue;
+    if (scene.objects[std::size_t(o.instance_of)].displaced) continue;
+    first[i] = first[std::size_t(o.instance_of)] = o.instance_of;
+  }
+  return first;
+}
+
+}  // namespace
 
 Accel::Accel(const SceneData& scene, const std::vector<bool>& semi_transparent)
     : state_(std::make_unique<State>()) {
   state_->device = rtcNewDevice(nullptr);
   state_->scene = rtcNewScene(state_->device);
-  rtcSetSceneFlags(state_->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-  state_->shared.resize(scene.objects.size());
-  for (unsigned i = 0; i < scene.objects.size(); ++i)
-    state_->add(i, scene.objects[i], semi_transparent[i]);
+  rtcSetSceneFlags(state_->scene, kFlags);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    state_->shared.push_back({&scene.objects[i].shape, semi_transparent[i]});
+    state_->any_collected |= semi_transparent[i];
+  }
+  const std::vector<int> first = sharing(scene);
+  for (unsigned i = 0; i < scene.objects.size(); ++i) {
+    const Object& o = scene.objects[i];
+    if (first[i] < 0)
+      state_->add(i, o, semi_transparent[i]);
+    else
+      state_->attach(state_->scene,
+                     state_->instance(o, scene.objects[std::size_t(first[i])], first[i]), i);
+  }
   rtcCommitScene(state_->scene);
 }
 
 Accel::~Accel() {
+  for (const auto& [first, mesh] : state_->meshes) rtcReleaseScene(mesh);
   rtcReleaseScene(state_->scene);
   rtcReleaseDevice(state_->device);
 }
@@ -162,10 +239,12 @@ Hit Accel::intersect(Vec3f o, Vec3f d, float t_min, float t_max, Crossings& cros
   crossings.overflow = false;
   RTCRayHit r{};
   r.ray = {o.x, o.y, o.z, t_min, d.x, d.y, d.z, 0, t_max, ~0u, 0, 0};
-  r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(state_->scene, &context.embree, &r);
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  const Hit hit{int(r.hit.geomID), r.hit.primID, r.ray.tfar, r.hit.u, r.hit.v};
+  const unsigned object =
+      r.hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? r.hit.geomID : r.hit.instID[0];
+  const Hit hit{int(object), r.hit.primID, r.ray.tfar, r.hit.u, r.hit.v};
   while (crossings.count > 0 && crossings.hits[crossings.count - 1].t >= hit.t) {
     --crossings.count;
     crossings.overflow = false;  // whatever was dropped lay behind the opaque hit too
@@ -184,14 +263,17 @@ bool Accel::occluded(Vec3f o, Vec3f d, float t_max) const {
 
 SurfacePoint surface_of(const SceneData& scene, const Hit& hit, Vec3f origin, Vec3f direction) {
   const Vec3d p = Vec3d(origin) + Vec3d(direction) * double(hit.t);
-  return std::visit(
+  const Object& o = scene.objects[hit.object];
+  SurfacePoint at = std::visit(
       [&]<class S>(const S& s) {
         if constexpr (std::is_same_v<S, Mesh>)
           return surface_at(s, hit.primitive, hit.u, hit.v);
         else
           return surface_at(s, p);
       },
-      scene.objects[hit.object].shape);
+      o.shape);
+  at.error += o.slack;
+  return at;
 }
 
 }  // namespace mms::renderer

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/film_file.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <fstream>
@@ -22,7 +23,7 @@ static_assert(std::endian::native == std::endian::little);
 static_assert(sizeof(PixelSums) == 80 && std::is_trivially_copyable_v<PixelSums>);
 
 constexpr std::string_view kFilmMagic = "\x89mmf\r\n\x1a\n";
-constexpr std::uint32_t kFilmVersion = 2;
+constexpr std::uint32_t kFilmVersion = 3;
 constexpr std::size_t kHashAt = 12, kBodyAt = 20;
 constexpr int kLargestSide = 32768;
 
@@ -129,12 +130,51 @@ bool get_film(Reader& in, PartialFilm& film) {
       b.weight = in.get<std::int64_t>();
     }
   }
-  if (!in.good() || in.left() > 0) return false;
+  if (!in.good()) return false;
   film.sums.restore(std::move(pixels), std::move(all));
   return true;
 }
 
-std::string contents(const FilmKey& key, const PartialFilm& film) {
+/// Calls `f` with each array of a value for every pixel.
+template <class L, class F>
+void for_each_array(L& layers, F f) {
+  f(layers.albedo);
+  f(layers.normal);
+  f(layers.position);
+  f(layers.depth);
+  f(layers.emission);
+  f(layers.descriptor);
+}
+
+void put_layers(std::string& out, const Layers& layers) {
+  put(out, std::int32_t(layers.samples));
+  put(out, std::uint32_t(layers.names.size()));
+  for (const std::string& name : layers.names) {
+    put(out, std::uint32_t(name.size()));
+    out += name;
+  }
+  for_each_array(
+      layers, [&](const auto& array) { put(out, array.data(), array.size() * sizeof array[0]); });
+}
+
+bool get_layers(Reader& in, std::size_t pixels, Layers& layers) {
+  layers.samples = in.get<std::int32_t>();
+  const auto names = in.get<std::uint32_t>();
+  for (std::uint32_t i = 0; i < names && in.good(); ++i) {
+    const auto size = in.get<std::uint32_t>();
+    if (size > in.left()) return false;
+    in.get(layers.names.emplace_back(size, ' ').data(), size);
+  }
+  if (!in.good() || layers.samples < 1 || layers.samples > kLayerSamples) return false;
+  for_each_array(layers, [&](auto& array) {
+    array.resize(pixels);
+    in.get(array.data(), pixels * sizeof array[0]);
+  });
+  return in.good() && std::all_of(layers.descriptor.begin(), layers.descriptor.end(),
+                                  [&](std::uint32_t d) { return d <= layers.names.size(); });
+}
+
+std::string contents(const FilmKey& key, const PartialFilm& film, const Layers* layers) {
   std::string out(kFilmMagic);
   put(out, kFilmVersion);
   put(out, std::uint64_t(0));  // of the hash
@@ -149,6 +189,8 @@ std::string contents(const FilmKey& key, const PartialFilm& film) {
       put(out, s.weight);
     }
   }
+  put(out, std::uint8_t(layers != nullptr));
+  if (layers) put_layers(out, *layers);
   const std::uint64_t hash = hash_bytes(std::span(out).subspan(kBodyAt));
   std::memcpy(out.data() + kHashAt, &hash, sizeof hash);
   return out;
@@ -180,8 +222,9 @@ std::string difference(const FilmKey& a, const FilmKey& b) {
   return "";
 }
 
-Result<Done> save_film(const std::string& path, const FilmKey& key, const PartialFilm& film) {
-  if (const auto error = replace_file(path, contents(key, film))) return *error;
+Result<Done> save_film(const std::string& path, const FilmKey& key, const PartialFilm& film,
+                       const Layers* layers) {
+  if (const auto error = replace_file(path, contents(key, film, layers))) return *error;
   return Done{};
 }
 
@@ -209,6 +252,12 @@ Result<StoredFilm> load_film(const std::string& path) {
     return damaged;
   StoredFilm stored{*key, PartialFilm(key->width, key->height, key->filter)};
   if (!get_film(in, stored.film)) return damaged;
+  if (in.get<std::uint8_t>() != 0) {
+    Layers layers;
+    if (!get_layers(in, stored.film.sums.pixels().size(), layers)) return damaged;
+    stored.layers = std::make_shared<const Layers>(std::move(layers));
+  }
+  if (!in.good() || in.left() > 0) return damaged;
   return stored;
 }
 

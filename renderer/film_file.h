@@ -7,9 +7,11 @@
 /// the very bytes that one render of all of them writes.
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
+#include "renderer/layers.h"
 #include "renderer/samples.h"
 
 namespace mms::renderer {
@@ -36,13 +38,16 @@ std::string difference(const FilmKey& a, const FilmKey& b);
 struct StoredFilm {
   FilmKey key;
   PartialFilm film;
+  std::shared_ptr<const Layers> layers = {};  ///< null where the file has none
 };
 
 /// What such files end with.
 inline constexpr std::string_view kFilmExtension = ".film";
 
-/// Writes atomically: the file is there in full or as it was before.
-Result<Done> save_film(const std::string& path, const FilmKey& key, const PartialFilm& film);
+/// Writes atomically: the file is there in full or as it was before. `layers` may be null; they are
+/// of the same picture, and are what `mms merge` writes beside it.
+Result<Done> save_film(const std::string& path, const FilmKey& key, const PartialFilm& film,
+                       const Layers* layers = nullptr);
 
 /// Errors: no such file, no film, of another version, damaged.
 Result<StoredFilm> load_film(const std::string& path);

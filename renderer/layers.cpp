@@ -232,6 +232,7 @@ class Gaze {
 Layers trace_layers(const World& world, int width, int height, int samples, int threads) {
   const std::size_t area = std::size_t(width) * std::size_t(height);
   Layers layers;
+  layers.samples = std::min(samples, kLayerSamples);
   for (auto* triples : {&layers.albedo, &layers.normal, &layers.position, &layers.emission})
     triples->resize(area);
   layers.depth.resize(area);
@@ -241,7 +242,7 @@ Layers trace_layers(const World& world, int width, int height, int samples, int 
   if (threads <= 0) threads = int(std::max(1u, std::thread::hardware_concurrency()));
   std::atomic<int> next{0};
   const auto work = [&] {
-    Gaze gaze(world, std::min(samples, kLayerSamples));
+    Gaze gaze(world, layers.samples);
     for (int y = next++; y < height; y = next++)
       for (int x = 0; x < width; x += kRun)
         gaze.trace(y, x, std::min(x + kRun, width), width, layers);

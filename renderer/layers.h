@@ -18,6 +18,7 @@ struct World;
 
 /// Each value row by row, top first.
 struct Layers {
+  int samples = 0;  ///< of each pixel that were looked at
   using Triple = std::array<float, 3>;
   /// Share of light in the colour of D65 that the first vertex scatters; linear sRGB. 0 where there
   /// is none.

@@ -102,6 +102,7 @@ Lights::Lights(const SceneData& scene, const std::vector<double>& radiance)
         c.triangles.push_back(c.triangles.back() + triangle_area(*m, t));
     }
     choice_of_[i] = int(choices_.size());
+    powers_.push_back(powers_.back() + c.radiance * c.area);
     choices_.push_back(std::move(c));
   }
   // Scattering directions find an even environment better than any density of light directions
@@ -210,6 +211,29 @@ int Lights::choose(Vec3d from, double& u) const {
   return d.light;
 }
 
+/// A point of a light's surface, all of its area alike.
+SurfacePoint Lights::place(const Choice& c, double u, double v) const {
+  const Shape& shape = scene_->objects[c.object].shape;
+  const Mesh* m = std::get_if<Mesh>(&shape);
+  if (!m) return sample_surface(shape, u, v);
+  double rest = 0;
+  const int t = step_of(c.triangles.data(), int(m->triangles.size()), u, rest);
+  const double r = std::sqrt(rest);
+  SurfacePoint at = surface_at(*m, std::uint32_t(t), r * (1 - v), r * v);
+  at.error += scene_->objects[c.object].slack;
+  return at;
+}
+
+EmissionPoint Lights::sample_point(double u, double v) const {
+  double rest = 0;
+  const Choice& c = choices_[step_of(powers_.data(), int(powers_.size()) - 1, u, rest)];
+  return {c.object, place(c, rest, v), pdf_point(c.object)};
+}
+
+double Lights::pdf_point(int object) const {
+  return choice_of_[object] < 0 ? 0 : choices_[choice_of_[object]].radiance / powers_.back();
+}
+
 LightSample Lights::sample(Vec3d from, double u, double v) const {
   const Choice* c = &choices_[choose(from, u)];
   if (c->object == kEnvironment) return sample_environment(from, u, v);
@@ -218,14 +242,8 @@ LightSample Lights::sample(Vec3d from, double u, double v) const {
   const Shape& shape = scene_->objects[c->object].shape;
   if (const Sphere* sphere = std::get_if<Sphere>(&shape)) {
     s.surface = sample_sphere(*sphere, from, u, v);
-  } else if (!std::holds_alternative<Mesh>(shape)) {
-    s.surface = sample_surface(shape, u, v);
   } else {
-    const Mesh& m = std::get<Mesh>(shape);
-    double rest = 0;
-    const int t = step_of(c->triangles.data(), int(m.triangles.size()), u, rest);
-    const double r = std::sqrt(rest);
-    s.surface = surface_at(m, std::uint32_t(t), r * (1 - v), r * v);
+    s.surface = place(*c, u, v);
   }
   const Vec3d to = s.surface.position - from;
   if (!(dot(to, to) > 0)) return s;

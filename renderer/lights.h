@@ -28,6 +28,13 @@ struct LightSample {
   double pdf = 0;             ///< per steradian, choice of the light included; 0: no sample
 };
 
+/// A point from which light goes out.
+struct EmissionPoint {
+  int object = -1;       ///< index into SceneData::objects
+  SurfacePoint surface;  ///< of it
+  double pdf = 0;        ///< per m^2, choice of the light included
+};
+
 /// Piecewise constant density over the texels of a picture, drawn by inverting two tables.
 class TexelDensity {
  public:
@@ -62,6 +69,13 @@ class Lights {
   double pdf(Vec3d from, int object, const SurfacePoint& at) const;
   double pdf_environment(Vec3d from, Vec3d direction) const;
 
+  /// Draws a point of an emitting object, by its estimated power: where a path from the light
+  /// begins. \pre some object emits (`any_object`).
+  EmissionPoint sample_point(double u, double v) const;
+  /// Density of any point of `object` by `sample_point`; 0 for what is not an emitter.
+  double pdf_point(int object) const;
+  bool any_object() const { return powers_.size() > 1; }
+
   /// Radiance that comes from the environment, from far along `direction`.
   Spectrumf environment(Vec3d direction, const Cluster& cluster) const;
 
@@ -73,6 +87,7 @@ class Lights {
     std::vector<double> triangles;  ///< cumulative area of a mesh's triangles
   };
   void add_environment();
+  SurfacePoint place(const Choice& c, double u, double v) const;
   static double irradiance(const Choice& c, Vec3d at);
   /// Probability of drawing light `i` at `from`, for each light.
   std::array<double, kLightsWeighed> weigh(Vec3d from) const;
@@ -88,6 +103,7 @@ class Lights {
   int environment_choice_ = -1;
   LightTree tree_;  ///< of all choices but the environment, if they are many
   TexelDensity texels_;
+  std::vector<double> powers_{0};  ///< cumulative radiance times area of the objects among choices
 };
 
 }  // namespace mms::renderer

@@ -45,12 +45,14 @@ struct Volume {
 struct Object {
   std::string name;
   Shape shape;
-  Transform transform;     ///< object space to world; the shape is in world space already
-  int surface = 0;         ///< index into SceneData::surfaces
-  int volume = -1;         ///< index into SceneData::volumes, or none
-  bool test = false;       ///< an object under test
-  int priority = 0;        ///< over what overlaps it (renderer/media.h); 0: none
-  double displace = 0;     ///< edge of the triangles that `height` moves, m; 0: it bumps only
+  Transform transform;   ///< object space to world; the shape is in world space already
+  int surface = 0;       ///< index into SceneData::surfaces
+  int instance_of = -1;  ///< an earlier object that is the same mesh before the transforms, or none
+  double slack = 0;      ///< how much farther off than `shape` a ray may find an instance, m
+  int volume = -1;       ///< index into SceneData::volumes, or none
+  bool test = false;     ///< an object under test
+  int priority = 0;      ///< over what overlaps it (renderer/media.h); 0: none
+  double displace = 0;   ///< edge of the triangles that `height` moves, m; 0: it bumps only
   bool displaced = false;  ///< `shape` has been moved by `height` already
 };
 

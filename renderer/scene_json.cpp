@@ -49,6 +49,13 @@ Frame<double> euler(Vec3d degrees) {
 }
 
 class Parser {
+  /// An object that states a shape.
+  struct Named {
+    std::string name;
+    Node node;
+    int object;
+  };
+
  public:
   Parser(const vm::Program& program, const SceneSource& source, std::string folder)
       : program_(program), source_(source), folder_(std::move(folder)) {}
@@ -126,8 +133,14 @@ class Parser {
     o.transform.scale = n.number_or("scale", 1, 1e-9, 1e9);
     o.test = n.has("test") && (n["test"].is_number() || n["test"].logic());
     if (o.test) turn(o.transform);
-    o.shape = parse_shape(n.has("instance") ? original(n) : n, o.transform, folder_);
-    if (!o.name.empty() && !n.has("instance")) named_.emplace_back(o.name, n);
+    if (n.has("instance")) {
+      const Named& first = original(n);
+      o.shape = parse_shape(first.node, o.transform, folder_);
+      share(o, first.object);
+    } else {
+      o.shape = parse_shape(n, o.transform, folder_);
+      if (!o.name.empty()) named_.push_back({o.name, n, int(data_.objects.size())});
+    }
     o.displace = n.number_or("displace", 0, 1e-9, 1e9);
     if (o.displace > 0 && !std::holds_alternative<Sphere>(o.shape) &&
         !std::holds_alternative<Mesh>(o.shape))
@@ -152,13 +165,26 @@ class Parser {
       *axis = {c * axis->x + s * axis->z, axis->y, c * axis->z - s * axis->x};
   }
 
+  /// Lets rays meet a mesh where its first object stands, turned and moved (renderer/accel.h).
+  void share(Object& o, int first) const {
+    if (!std::holds_alternative<Mesh>(o.shape)) return;
+    o.instance_of = first;
+    const Object& f = data_.objects[std::size_t(first)];
+    // The transform between both is rounded, and so is each point that goes through it: some units
+    // in the last place of all that is added up on the way.
+    const Bounds box = bounds(o.shape);
+    const double reach = std::max(length(box.low), length(box.high)) + length(o.transform.move) +
+                         length(f.transform.move) * o.transform.scale / f.transform.scale;
+    o.slack = 32 * 0x1p-24 * reach;
+  }
+
   /// The object whose shape `n` has too.
-  const Node& original(const Node& n) const {
+  const Named& original(const Node& n) const {
     const std::string name = n["instance"].text();
     std::vector<std::string> known;
-    for (const auto& [other, node] : named_) {
-      if (other == name) return node;
-      known.push_back(other);
+    for (const Named& other : named_) {
+      if (other.name == name) return other;
+      known.push_back(other.name);
     }
     n["instance"].fail(fmt::format("no object `{}` before this one", name), hint_for(name, known));
   }
@@ -267,7 +293,7 @@ class Parser {
   const vm::Program& program_;
   const SceneSource& source_;
   std::string folder_;
-  std::vector<std::pair<std::string, Node>> named_;  ///< objects that state a shape
+  std::vector<Named> named_;
   SceneData data_;
 };
 

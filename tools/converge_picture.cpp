@@ -2,10 +2,12 @@
 // mms converge: renders by `mms render` itself, so that every switch of it can be measured.
 #include "tools/converge.h"
 
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <sstream>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -26,10 +28,21 @@ constexpr const char* kReferenceSeed = "9007199254740993";
 
 /// A folder for pictures, removed at the end.
 struct Scratch {
-  fs::path path;
+  fs::path path;  ///< empty where none could be made
+  std::string why;
   Scratch() {
-    std::string name = (fs::temp_directory_path() / "mms-converge-XXXXXX").string();
-    if (mkdtemp(name.data())) path = name;
+    std::error_code error;
+    const fs::path folder = fs::temp_directory_path(error);
+    if (error) {
+      why = fmt::format("no folder for temporary files: {}", error.message());
+      return;
+    }
+    std::string name = (folder / "mms-converge-XXXXXX").string();
+    if (mkdtemp(name.data()))
+      path = name;
+    else
+      why = fmt::format("{}: no folder can be made there: {}", folder.string(),
+                        std::error_code(errno, std::generic_category()).message());
   }
   ~Scratch() {
     std::error_code ignored;
@@ -150,8 +163,12 @@ void print(const ConvergeRequest& request, const Row& r) {
 Exit measure_convergence(const ConvergeRequest& request) {
   const Scratch scratch;
   if (scratch.path.empty())
-    return fail(Exit::File, {fs::temp_directory_path().string(), "no folder can be made there", ""},
-                request);
+    return fail(
+        Exit::File,
+        {"converge", scratch.why,
+         "its pictures stay a while in the folder that $TMPDIR names, else in /tmp: name one "
+         "that can be written"},
+        request);
   const auto reference =
       render(request, (scratch.path / "reference.exr").string(), request.reference_samples,
              std::string(" --seed ") + kReferenceSeed);

@@ -29,6 +29,9 @@ Result<StoredFilm> add_up(const std::vector<std::string>& paths) {
       return Error{paths[i], "has samples that are in an earlier file too",
                    "give each part numbers of its own: --samples 0:64, --samples 64:128"};
     sum->film.add(part->film);
+    // One render of all samples looks at the first ones, as the part with the most of them did.
+    if (part->layers && (!sum->layers || part->layers->samples > sum->layers->samples))
+      sum->layers = part->layers;
   }
   return sum;
 }
@@ -55,11 +58,11 @@ Exit merge_films(const MergeRequest& request) {
   if (!sum) return fail(Exit::File, sum.error(), request);
   const auto written =
       request.output.ends_with(renderer::kFilmExtension)
-          ? renderer::save_film(request.output, sum->key, sum->film)
-          : renderer::write_picture(
-                request.output,
-                {sum->film.develop(), nullptr, metadata(request.output, sum->key, sum->film)},
-                view_of(request));
+          ? renderer::save_film(request.output, sum->key, sum->film, sum->layers.get())
+          : renderer::write_picture(request.output,
+                                    {sum->film.develop(), sum->layers.get(),
+                                     metadata(request.output, sum->key, sum->film)},
+                                    view_of(request));
   if (!written) return fail(Exit::File, written.error(), request);
   print_report(request, *sum);
   return Exit::Ok;

@@ -117,7 +117,7 @@ class Checkpoint {
 Result<renderer::Done> write_result(const RenderRequest& request, const std::string& path,
                                     Checkpoint& checkpoint, const renderer::FilmKey& key,
                                     const renderer::Rendered& r) {
-  if (path == checkpoint.path()) return renderer::save_film(path, key, *r.sums);
+  if (path == checkpoint.path()) return renderer::save_film(path, key, *r.sums, r.layers.get());
   if (r.report.stopped) checkpoint.save(*r.sums);
   const auto written = renderer::write_picture(
       path, {r.film, r.layers.get(), metadata(path, key, *r.sums)}, view_of(request));
@@ -133,7 +133,7 @@ Exit render_one(RenderRequest request, const std::string& file, const std::strin
   if (!job) return exit;
   renderer::RenderOptions options = render_options(request);
   const renderer::FilmKey key = renderer::film_key(job->scene, options, job->script);
-  options.layers = path.ends_with(".exr");
+  options.layers = path.ends_with(".exr") || path.ends_with(renderer::kFilmExtension);
   Checkpoint checkpoint(checkpoint_path(path), key);
   if (request.resume) {
     const auto found = earlier(checkpoint.path(), key);

@@ -77,6 +77,10 @@ TEST_CASE("converge says what it cannot do") {
   const Outcome run = folder.mms("converge s.mms --samples 1:1 --with size=8x8 --vary filter=bx");
   CHECK(run.exit != 0);
   CHECK(contains(run.err, "--filter=bx"));
+  const Outcome nowhere = folder.bash("TMPDIR=/no/such mms converge s.mms");
+  CHECK(nowhere.exit == 3);
+  CHECK(contains(nowhere.err, "no folder for temporary files"));
+  CHECK(contains(nowhere.err, "TMPDIR"));
 }
 
 #endif

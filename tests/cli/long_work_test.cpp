@@ -59,6 +59,9 @@ TEST_CASE("parts of a picture add up to its very bytes: any split, order, filter
     good(folder, "merge sum.film -o sum.png");
     CHECK(folder.read("sum.png") == folder.read("whole.png"));
     CHECK(folder.read("a.film") != folder.read("whole.film"));
+    // What the camera sees first is in films too: 16 samples of it, which only c.film has.
+    good(folder, "merge sum.film -o sum.exr");
+    CHECK(contains(folder.read("sum.exr"), "albedo.R"));
   }
 }
 

@@ -11,7 +11,7 @@ using mms::cli::Outcome;
 
 #if MMS_RENDERER
 
-TEST_CASE("a watched picture follows the script, its imports and the scene, past mistakes") {
+TEST_CASE("a watched picture follows the script, its imports, images and the scene, past mistakes") {
   const Folder folder;
   folder.write("s.mms", "surface \"s\" bsdf = matte(0.5); end\n");
   folder.write("scene.json",
@@ -48,12 +48,21 @@ same third
 sed 's/"constant": 1/"constant": 0.5/' scene.json >new; mv new scene.json
 until_line '"seconds"' 4
 same fourth
+printf 'P6 1 1 255\n\300\100\040' >p.ppm
+echo 'surface "s" bsdf = matte(image("p.ppm", $uv)); end' >new; mv new s.mms
+until_line '"seconds"' 5
+same fifth
+cp p.png before.png
+printf 'P6 1 1 255\n\040\100\300' >new; mv new p.ppm
+until_line '"seconds"' 6
+same sixth
+cmp -s before.png p.png && fail "another image changed nothing"
 kill -INT $child; wait $child; echo "ended $?"
 grep -c first_picture_seconds log
 )BASH");
   INFO(run.out, run.err);
   CHECK(run.exit == 0);
-  CHECK(run.out == "ended 130\n4\n");
+  CHECK(run.out == "ended 130\n6\n");
 }
 
 TEST_CASE("only one script can be watched") {

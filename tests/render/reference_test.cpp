@@ -3,8 +3,8 @@
 // standard errors. Scenes are lit so that no sample is much brighter than the picture, so means are
 // nearly normal.
 //
-// A change that is meant makes new references: MMS_RENDER_REFERENCES=8192 test_render writes them,
-// from so many samples a pixel; then look at them.
+// A change that is meant makes new references: delete the old ones, and MMS_RENDER_REFERENCES=8192
+// test_render writes those that are not there, from so many samples a pixel; then look at them.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -53,6 +53,8 @@ const std::vector<Case>& cases() {
        "end);\n"
        "end\n"},
       {"glass", "surface glass\n  bsdf = dielectric(1.5);\nend\n"},
+      {"rough_glass", "surface rough\n  bsdf = dielectric(1.5, 0.3);\nend\n"},
+      {"rough_metal", "surface rough\n  bsdf = conductor(0.2, 3.4, 0.4);\nend\n"},
       {"prism", "surface prism\n  bsdf = dielectric(cauchy($wavelength, 1.6, 0.03));\nend\n"},
       {"fog",
        "surface fog\n  bsdf = dielectric(1.3);\nend\n"
@@ -148,7 +150,7 @@ TEST_CASE("pictures are those that were stored, but for chance") {
   const char* bless = std::getenv("MMS_RENDER_REFERENCES");
   for (const Case& c : cases()) {
     CAPTURE(c.name);
-    if (bless) {
+    if (bless && !std::filesystem::exists(path_of(c))) {
       REQUIRE(bool(write_picture(path_of(c), {picture_of(c, std::atoi(bless), 1000)})));
       continue;
     }
