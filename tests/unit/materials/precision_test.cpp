@@ -66,7 +66,7 @@ TEST_CASE("float is as right as its directions and numbers are, in every model")
     const Exact exact{layout, {p.begin(), p.end()}};
     stats::Random random(6);
     double worst = 0, relative = 0;
-    for (int i = 0; i < (kSanitized ? 30 : 400); ++i) {
+    for (int i = 0; i < (kSanitized ? 20 : 100); ++i) {
       const Vec3<float> wo(square_to_sphere(random.next(), random.next()));
       const float u = random.next_float(), u1 = random.next_float();
       const auto s = bsdf.sample(wo, u, u1, random.next_float(), Mode::Importance);
