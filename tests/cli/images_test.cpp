@@ -117,4 +117,26 @@ TEST_CASE("images reach eval, bounds, compile, deps and render") {
   CHECK(contains(broken.err, "the image `p.pgm` is broken"));
 }
 
+TEST_CASE("a lamp's photometric file lights a scene, and a damaged one is told with its line") {
+  const Folder folder;
+  folder.write("s.mms",
+               "real down() = ies(\"lamp.ies\", [0, -1, 0]);\n"
+               "real slant() = ies(\"lamp.ies\", normalize([1.0, -1.0, 0.0]));\n"
+               "real east() = ies(\"lamp.ies\", [1, 0, 0]);\n"
+               "real south() = ies(\"lamp.ies\", [0, 0, 1]);\n"
+               "real lumens() = image_fact(\"lamp.ies\", \"lumens\");\n"
+               "surface s bsdf = matte(0); emission = ies(\"lamp.ies\"); end\n");
+  const std::string head = "TILT=NONE\n1 700 1 3 2 1 2 0 0 0\n1 1 9\n0 90 180\n0 90\n";
+  folder.write("lamp.ies", head + "100 50 0 100 30 0\n");
+  const Outcome eval = folder.mms("eval s.mms");
+  CHECK(eval.err == "");
+  CHECK(contains(eval.out, "down = 100\nslant = 75\neast = 50\nsouth = 30\nlumens = 700\n"));
+  CHECK(folder.mms("render s.mms --size 8x8 --samples 1 -o out.png").exit == 0);
+  folder.write("lamp.ies", head + "100 50 0 100 much 0\n");
+  const Outcome broken = folder.mms("check s.mms");
+  CHECK(broken.exit == 1);
+  CHECK(contains(broken.err,
+                 "the image `lamp.ies` is not understood: line 6: expected candela, found `much`"));
+}
+
 #endif

@@ -89,7 +89,7 @@ namespace {
 double largest_kink(const Made<double>& m, double step) {
   stats::Random random(11);
   double largest = 0, sum = 0;
-  const int count = kSanitized ? 4'000 : 100'000;
+  const int count = kSanitized ? 4'000 : 25'000;
   int used = 0;
   while (used < count) {
     const Vec3d wo = square_to_sphere(random.next(), random.next());

@@ -450,3 +450,37 @@ TEST_CASE("textures: what is no picture or is cut off is an error") {
   std::ofstream(folder / "text.png") << "no picture";
   CHECK(!open_textures(64)->open(use_of(folder / "text.png")));
 }
+
+TEST_CASE("textures: a lamp's photometric file is a picture over its two angles") {
+  const Folder folder;
+  const auto write = [&](const char* name, const char* candela) {
+    std::ofstream(folder / name) << "IESNA:LM-63-2002\nTILT=NONE\n1 900 2 3 2 1 2 0 0 0\n1 1 60\n"
+                                    "0 90 180\n0 180\n"
+                                 << candela;
+    return folder / name;
+  };
+  const auto image = open(use_of(write("LAMP.IES", "100 50 0  100 10 0\n")));
+  CHECK(image->number("candela") == 200);
+  CHECK(image->number("lumens") == 900);
+  CHECK(image->number("watts") == 60);
+  CHECK(image->number("width") == 2);
+  CHECK(!image->number("nothing"));
+  double low, high;
+  image->range(low, high);
+  CHECK(low == 0);
+  CHECK(high == 200);
+  CHECK(image->files() == std::vector<std::string>{folder / "LAMP.IES"});
+  // u in turns, v in half turns; a quarter turn is halfway between the two planes.
+  CHECK(look_up(*image, ImageAsk::Number, {0, 0.5f})[0] == doctest::Approx(100));
+  CHECK(look_up(*image, ImageAsk::Number, {0.25f, 0.5f})[0] == doctest::Approx(60));
+  CHECK(look_up(*image, ImageAsk::Number, {-0.25f, 0.25f})[0] == doctest::Approx(130));
+  CHECK(look_up(*image, ImageAsk::Colour, {0.5f, 0.5f}) == std::vector<double>(3, 20.0));
+  CHECK(look_up(*image, ImageAsk::Number, {0, 1.5f})[0] == 0);
+  CHECK(look_up(*image, ImageAsk::Number, {float(NAN), 0.5f})[0] == 0);
+  const auto slope = look_up(*image, ImageAsk::NumberSlope, {0.2f, 0.25f});
+  CHECK(slope[0] == doctest::Approx(-40 * 2));           // from 150 to 110 in half a turn
+  CHECK(slope[1] == doctest::Approx((68 - 200) / 0.5));  // from 200 to 68 in a quarter turn
+  const auto bad = open_textures(64)->open(use_of(write("bad.ies", "100 50 0 100 10\n")));
+  REQUIRE(!bad);
+  CHECK(bad.error().what == "is not understood: line 7: the file ends before candela");
+}
