@@ -41,7 +41,9 @@
 #include "materials/matte.h"
 #include "materials/microfacet.h"
 #include "materials/oren_nayar.h"
+#include "materials/phong_glass.h"
 #include "materials/radial.h"
+#include "materials/slab.h"
 #include "materials/specular.h"
 
 namespace mms::materials {
@@ -170,6 +172,10 @@ Result Bsdf<R>::with_model(int i, Result none, Visit visit) const {
       return visit(Conductor<R>(p));
     case Lobe::Dielectric:
       return visit(Dielectric<R>(p));
+    case Lobe::PhongGlass:
+      return visit(PhongGlass<R>(p));
+    case Lobe::Slab:
+      return visit(Slab<R>(p));
     case Lobe::FilmConductor:
       return visit(FilmConductor<R>(p));
     case Lobe::FilmDielectric:

@@ -23,8 +23,7 @@
 ///   coat: (F + F') / 2          which reflects E(wo) = (F + M(wo)) / 2
 ///   base: 1 - max(E, E')        or, for the Lambert lobes right below it,
 ///         (1 - E)(1 - E') / (1 - mean F)   as the means of E and F are the same
-/// so that a white matte under a white gloss is 1 in every direction, within 1e-3 (2e-3 for an
-/// index below 1.1). Of nested
+/// so that a white matte under a white gloss is 1 in every direction, within 1e-4. Of nested
 /// `fresnel_mix`, only the one nearest the Lambert lobe uses the product, for the same bound.
 
 #include <array>

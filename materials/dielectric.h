@@ -36,32 +36,11 @@ struct Dielectric {
   }
 
   Spectrum<R> estimate(Vec3<R> wo) const {
-    const R c = limited(std::abs(wo.z), R(0), R(1));
-    Spectrum<R> e;
-    const bool rough = !specular();
-    for (int j = 0; j < kWavelengths; ++j) {
-      const FresnelSplit<R> s = fresnel_split(c, relative_eta(ior[j], wo));
-      e[j] = s.reflected * reflected[j] + s.transmitted * transmitted[j];
-      // Facets meet the light at other angles than the surface does.
-      if (rough) e[j] = R(0.9) * e[j] + R(0.05) * (reflected[j] + transmitted[j]);
-    }
-    return e;
+    return interface_estimate(ior, wo, reflected, transmitted, !specular());
   }
 
   SpecularTerms<R> terms(Vec3<R> wo) const {
-    const R c = limited(std::abs(wo.z), R(0), R(1));
-    SpecularTerms<R> t;
-    for (int j = 0; j < kWavelengths; ++j) {
-      t.eta[j] = relative_eta(ior[j], wo);
-      const FresnelSplit<R> s = fresnel_split(c, t.eta[j]);
-      t.reflect_weight[j] = s.reflected * reflected[j];
-      t.transmit_weight[j] = s.transmitted * transmitted[j];
-      const R sum = t.reflect_weight[j] + t.transmit_weight[j];
-      if (!(sum > 0)) continue;
-      t.reflect_probability[j] = t.reflect_weight[j] / sum;
-      t.transmit_probability[j] = t.transmit_weight[j] / sum;
-    }
-    return t;
+    return interface_terms(ior, wo, reflected, transmitted);
   }
 
   Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode) const {

@@ -46,11 +46,12 @@ inline constexpr double kMaxStretched = 3.2;  ///< the widest alpha, at full ani
 inline constexpr double kMinMeanAlpha = 1e-5;
 
 inline constexpr int kAlpha = 65, kDirection = 65, kMean = 193;
-inline constexpr int kStretchedAlpha = 14, kAspect = 6, kAzimuth = 6, kStretchedDirection = 21;
+inline constexpr int kStretchedAlpha = 14, kAspect = 9, kAzimuth = 9, kStretchedDirection = 33;
 inline constexpr int kStretchedMean = 65, kMeanAspect = 12;
-inline constexpr int kInterfaceAlpha = 21, kIndex = 23, kInterfaceDirection = 61;
+/// [1] where the index falls on the far side: the loss follows the critical angle there.
+inline constexpr int kInterfaceAlpha = 17, kIndex[] = {29, 49}, kInterfaceDirection[] = {61, 81};
 inline constexpr int kInterfaceMean = 65;
-inline constexpr int kGloss = 33, kCoatIndex = 23, kCoatDirection = 41;
+inline constexpr int kGloss = 33, kCoatIndex = 37, kCoatDirection = 49;
 inline constexpr double kLargestGloss = 5e4;
 
 /// Of a direction of |cosine| `z` and tangential length `s`; fine where z is near 0 or `width` s.
@@ -86,16 +87,18 @@ inline R aspect(R quotient) {
 }
 
 /// The same for an interface, whose critical angle may be anywhere: two parts `direction`, one
-/// angle.
+/// angle; and next to grazing, where the loss grows as z^0.8 for indices near 1, finer still.
 template <class R>
 inline R interface_direction(R z, R s, R width) {
-  return (2 * direction(z, s, width) + std::atan2(z, s) * (2 / std::numbers::pi_v<R>)) / 3;
+  const R even = (2 * direction(z, s, width) + std::atan2(z, s) * (2 / std::numbers::pi_v<R>)) / 3;
+  return (even + std::sqrt(even)) / 2;
 }
 
-/// Of the relative index `eta`: 0 at 1, towards 1 for 0 and infinity.
+/// Of the relative index `eta`: 0 at 1, towards 1 for 0 and infinity. Next to 1, Fresnel's factor
+/// changes over cosines of the size of sqrt |eta - 1|, which the fourth root keeps apart.
 template <class R>
 inline R index(R eta) {
-  return std::sqrt(std::abs(eta - 1) / (eta + 1));
+  return std::sqrt(std::sqrt(std::abs(eta - 1) / (eta + 1)));
 }
 
 template <class R>
@@ -106,7 +109,7 @@ inline R gloss(R n) {
 /// Of a coat, crowded towards grazing.
 template <class R>
 inline R coat_direction(R z) {
-  return std::sqrt(std::asin(std::min(z, R(1))) * (2 / std::numbers::pi_v<R>));
+  return std::sqrt(std::sqrt(std::asin(std::min(z, R(1))) * (2 / std::numbers::pi_v<R>)));
 }
 
 }  // namespace axes
@@ -175,11 +178,12 @@ struct InterfaceLoss {
   R at(Vec3<R> w) const {
     using namespace axes;
     const R z = std::abs(w.z), s = std::sqrt(w.x * w.x + w.y * w.y);
-    const auto d = Stencil<R>::at(interface_direction(z, s, width(alpha)), kInterfaceDirection);
+    const int falls = eta < 1, directions = kInterfaceDirection[falls], indices = kIndex[falls];
+    const auto d = Stencil<R>::at(interface_direction(z, s, width(alpha)), directions);
     const auto a = Stencil<R>::at(axes::alpha(alpha, R(1)), kInterfaceAlpha);
-    const auto n = Stencil<R>::at(index(eta), kIndex);
-    constexpr int n1 = coefficients(kInterfaceDirection), n0 = n1 * coefficients(kIndex);
-    const R l = interpolate(tables->loss[eta < 1], a, n0, n, n1, d);
+    const auto n = Stencil<R>::at(index(eta), indices);
+    const int n1 = coefficients(directions), n0 = n1 * coefficients(indices);
+    const R l = interpolate(tables->loss[falls], a, n0, n, n1, d);
     return l > 0 ? std::min(l, R(1)) : R(0);
   }
 
@@ -187,9 +191,9 @@ struct InterfaceLoss {
   R mean() const {
     using namespace axes;
     const auto a = Stencil<R>::at(log_alpha(alpha, R(1)), kInterfaceMean);
-    const auto n = Stencil<R>::at(index(eta), kIndex);
+    const auto n = Stencil<R>::at(index(eta), kIndex[eta < 1]);
     return mean_unit(alpha * alpha) *
-           interpolate(tables->mean[eta < 1], a, coefficients(kIndex), n);
+           interpolate(tables->mean[eta < 1], a, coefficients(kIndex[eta < 1]), n);
   }
 };
 

@@ -112,4 +112,39 @@ inline R relative_eta(R ior, Vec3<R> wo) {
   return wo.z > 0 ? n : 1 / n;
 }
 
+/// The deltas of a smooth interface: Fresnel's factor and the rest, tinted. `ior` is inside over
+/// outside, for each wavelength.
+template <class R>
+inline SpecularTerms<R> interface_terms(const R* ior, Vec3<R> wo, const Spectrum<R>& reflected,
+                                        const Spectrum<R>& transmitted) {
+  const R c = limited(std::abs(wo.z), R(0), R(1));
+  SpecularTerms<R> t;
+  for (int j = 0; j < kWavelengths; ++j) {
+    t.eta[j] = relative_eta(ior[j], wo);
+    const FresnelSplit<R> s = fresnel_split(c, t.eta[j]);
+    t.reflect_weight[j] = s.reflected * reflected[j];
+    t.transmit_weight[j] = s.transmitted * transmitted[j];
+    const R sum = t.reflect_weight[j] + t.transmit_weight[j];
+    if (!(sum > 0)) continue;
+    t.reflect_probability[j] = t.reflect_weight[j] / sum;
+    t.transmit_probability[j] = t.transmit_weight[j] / sum;
+  }
+  return t;
+}
+
+/// What a model around such an interface scatters, roughly: both deltas where it is smooth, and
+/// where it is rough, as its parts meet the light at other angles, a little of either side always.
+template <class R>
+inline Spectrum<R> interface_estimate(const R* ior, Vec3<R> wo, const Spectrum<R>& reflected,
+                                      const Spectrum<R>& transmitted, bool rough) {
+  const R c = limited(std::abs(wo.z), R(0), R(1));
+  Spectrum<R> e;
+  for (int j = 0; j < kWavelengths; ++j) {
+    const FresnelSplit<R> s = fresnel_split(c, relative_eta(ior[j], wo));
+    e[j] = s.reflected * reflected[j] + s.transmitted * transmitted[j];
+    if (rough) e[j] = R(0.9) * e[j] + R(0.05) * (reflected[j] + transmitted[j]);
+  }
+  return e;
+}
+
 }  // namespace mms::materials

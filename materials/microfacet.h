@@ -48,7 +48,8 @@ struct RoughReflection {
     wo = to_upper(wo, wo);
     const FacetLoss<R> l = loss();
     const R lo = l.at(wo);
-    v.mean = l.mean();
+    // No distribution loses less: where facets are all but flat, the spline may swing below it.
+    v.mean = std::max(l.mean(), R(0.02) * mean_unit(facets.ax * facets.ay));
     v.multiple = lo * l.at(wi) / (kPi<R> * v.mean);
     v.pdf = lo * bounces().pdf(wi.z);
     const Vec3<R> h = half_vector(wo, wi);

@@ -45,7 +45,10 @@ struct PhongLobe {
 
   bool specular() const { return n > R(kMaxExponent); }
   Spectrum<R> estimate(Vec3<R>) const { return colour; }
-  SpecularTerms<R> terms(Vec3<R>) const { return mirror_terms(colour); }
+  /// What `phong` keeps of a narrow lobe is the cosine.
+  SpecularTerms<R> terms(Vec3<R> wo) const {
+    return mirror_terms(kMax ? colour : colour * std::min(std::abs(wo.z), R(1)));
+  }
 
   Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode) const {
     if (!same_side(wo, wi)) return {};

@@ -2,6 +2,7 @@
 // The shapes that a scene file can write: docs/scene.md.
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 
 #include "base/warp.h"
 #include "renderer/scene_node.h"
@@ -138,13 +139,51 @@ Shape lathe(const Node& s, const Transform& t, const std::string&) {
   return m;
 }
 
+/// A tube along a knot that winds around a torus; u runs along the knot, v around the tube.
+Shape knot(const Node& s, const Transform& t, const std::string&) {
+  s.keys({"windings", "radius", "tube", "segments"});
+  const auto [p, q] = s.has("windings") ? s["windings"].pair() : std::array{2.0, 3.0};
+  const auto whole = [](double x) { return x >= 1 && x <= 50 && x == std::floor(x); };
+  if (!whole(p) || !whole(q) || std::gcd(int(p), int(q)) != 1)
+    s["windings"].fail("expected two whole numbers in [1, 50] without a common divisor");
+  const double radius = s.number_or("radius", 1, 1e-6, 1e6);
+  const double tube = s.number_or("tube", 0.2 * radius, 1e-6, 1e6);
+  const int segments = int(s.number_or("segments", 64, 3, 1024));
+  const int along = 12 * segments;
+  Mesh m;
+  for (int i = 0; i <= along; ++i) {
+    const double a = 2 * kPi<double> * (i % along) / along;
+    // Around the torus p times, through its hole q times; `radius` is the farthest it goes.
+    const double cp = std::cos(p * a), sp = std::sin(p * a);
+    const double cq = std::cos(q * a), sq = std::sin(q * a);
+    const double far = 2 + cq, size = radius / 3;
+    const Vec3d centre{size * far * cp, size * sq, size * far * sp};
+    const Vec3d tangent =
+        normalize(Vec3d{-q * sq * cp - p * far * sp, q * cq, -q * sq * sp + p * far * cp});
+    const Vec3d out{cq * cp, sq, cq * sp};  // of the torus: at a right angle to the tangent
+    const Vec3d side = cross(tangent, out);
+    for (int k = 0; k <= segments; ++k) {
+      const double b = 2 * kPi<double> * (k % segments) / segments;
+      const Vec3d n = out * std::cos(b) + side * std::sin(b);
+      m.positions.emplace_back(t.point(centre + n * tube));
+      m.normals.emplace_back(t.direction(n));
+      m.uvs.push_back({float(i) / float(along), float(k) / float(segments)});
+      if (i == along || k == segments) continue;
+      const auto here = std::uint32_t(m.positions.size() - 1), next = here + segments + 1;
+      m.triangles.push_back({here, next + 1, next});
+      m.triangles.push_back({here, here + 1, next + 1});
+    }
+  }
+  return m;
+}
+
 struct ShapeKey {
   const char* key;
   Shape (*parse)(const Node&, const Transform&, const std::string& folder);
 };
 
-constexpr ShapeKey kShapes[] = {{"sphere", sphere}, {"quad", quad},   {"disc", disc},
-                                {"box", box},       {"lathe", lathe}, {"mesh", mesh}};
+constexpr ShapeKey kShapes[] = {{"sphere", sphere}, {"quad", quad}, {"disc", disc}, {"box", box},
+                                {"lathe", lathe},   {"knot", knot}, {"mesh", mesh}};
 
 }  // namespace
 

@@ -15,6 +15,7 @@
 #include <map>
 #include <mutex>
 
+#include "renderer/profile.h"
 #include "renderer/texels.h"
 
 namespace mms::renderer {
@@ -245,6 +246,7 @@ class Textures final : public vm::ImageSource {
   explicit Textures(double megabytes) : system_(std::make_shared<const System>(megabytes)) {}
 
   Result<std::shared_ptr<const vm::Image>> open(const ImageUse& use) override {
+    if (is_profile(use.file)) return open_profile(use.file);
     const bool tiled = use.file.find(kUdim) != std::string::npos;
     std::map<std::pair<int, int>, std::string> files{{{0, 0}, use.file}};
     if (tiled) files = find_tiles(use.file);

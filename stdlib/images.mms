@@ -47,3 +47,15 @@ real image_fact(string file, string name, real fallback = 0.0) = intrinsic::imag
 /// >>> image_size("file.png")
 integer[2] image_size(string file) =
     [integer(image_fact(file, "width")), integer(image_fact(file, "height"))];
+
+/// Luminous intensity, in candela, of the lamp of a photometric file (`.ies`, IES LM-63, type C) towards
+/// `direction`, a unit vector; `down` is where the file's vertical angle is 0, `along` at a right angle to
+/// it where the horizontal one is. 1 where the file is not there. The file's `candela` (the largest),
+/// `lumens` and `watts` are facts: `image_fact(file, "lumens")`. A sphere of radius r has that intensity
+/// where its radiance everywhere is `ies(file) / (pi r^2)`; `illuminant_d65($wavelength)` alone is 72 200 cd m^-2.
+/// >>> ies("lamp.ies", [0, -1, 0])
+real ies(string file, real[3] direction = $view, down = [0.0, -1.0, 0.0],
+    real[3] along = [1.0, 0.0, 0.0])
+    turns      = atan2(dot(direction, cross(along, down)), dot(direction, along)) / tau;
+    half_turns = acos(clamp(dot(direction, down), -1, 1)) / pi;
+    return image_value(file, [turns, half_turns], width = 0.0);

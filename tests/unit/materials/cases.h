@@ -64,6 +64,9 @@ inline std::vector<Case> smooth_cases() {
   put("dielectric dispersive, 0.5", dielectric(ramp(1.6, 1.4), 0.5));
   put("dielectric 1.1, 0.8", dielectric(1.1, 0.8));
   put("dielectric 2.5, 0.6, tinted", dielectric(2.5, 0.6, 0.5, ramp(0.2, 0.8)));
+  put("phong_glass 1.5, 3", phong_glass(1.5, 3));
+  put("phong_glass dispersive, 1000", phong_glass(ramp(1.35, 1.2), 1000));
+  put("phong_glass 0.6, 40, tinted", phong_glass(0.6, 40, 0.5, ramp(0.2, 0.8)));
   put("film_conductor", film_conductor(2.5, ramp(3, 4), 1.5, 400e-9, ramp(400e-9, 700e-9), 0.4));
   put("coat absorbing", coat(glossy(1, 40), matte(ramp(0.9, 0.5)), 0.5, ramp(0.1, 2), 1.5));
   put("mix", mix(matte(ramp(0.1, 0.9)), glossy(1, 20), ramp(0.2, 0.7)));

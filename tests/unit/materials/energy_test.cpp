@@ -86,12 +86,12 @@ TEST_CASE("white microfacets are lossless at every roughness") {
   struct Model {
     std::string name;
     Material (*make)(double roughness, double anisotropy);
-    double round, stretched;  ///< bounds: anisotropic tables have four axes and are coarser
+    double round, slightly, stretched;  ///< bounds: tables of four axes are coarser
   };
   const Model models[] = {
-      {"microfacet", [](double r, double a) { return microfacet(1, r, a); }, 1e-4, 2e-3},
-      {"beckmann", [](double r, double a) { return beckmann(1, r, a); }, 1e-4, 2e-3},
-      {"conductor", [](double r, double a) { return conductor(1, 1e25, r, a); }, 1e-4, 2e-3}};
+      {"microfacet", [](double r, double a) { return microfacet(1, r, a); }, 1e-4, 3e-4, 1e-3},
+      {"beckmann", [](double r, double a) { return beckmann(1, r, a); }, 1e-4, 3e-4, 1e-3},
+      {"conductor", [](double r, double a) { return conductor(1, 1e25, r, a); }, 1e-4, 3e-4, 1e-3}};
   for (const Model& model : models) {
     double round = 0, slightly = 0, stretched = 0;
     for (double roughness : {0.02, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 0.9, 1.0})
@@ -102,7 +102,7 @@ TEST_CASE("white microfacets are lossless at every roughness") {
         stretched = std::max(stretched, worst_loss(model.make(roughness, 0.9), azimuth));
       }
     CHECK_MESSAGE(round < model.round, model.name);
-    CHECK_MESSAGE(slightly < model.stretched, model.name);
+    CHECK_MESSAGE(slightly < model.slightly, model.name);
     CHECK_MESSAGE(stretched < model.stretched, model.name);
     MESSAGE(model.name, ": largest |albedo - 1| ", round, "; anisotropy 0.5: ", slightly,
             "; 0.9: ", stretched);
@@ -132,17 +132,18 @@ double mean_weight(const Material& m, Vec3d wo, int count) {
 
 TEST_CASE("white rough glass is lossless from both sides") {
   double worst = 0;
-  for (double ior : {0.7, 1.33, 1.5, 2.5})
-    for (double roughness : {0.3, 0.6, 0.9})
+  for (double ior : {0.7, 1.1, 1.33, 1.5, 2.5})
+    for (double roughness : {0.225, 0.6, 0.9})
       for (double degrees : {0.0, 60.0, 89.0, 150.0, 110.0}) {
         if (kSanitized && (ior != 1.5 || roughness != 0.6)) continue;
         const int count = kSanitized ? 20'000 : 200'000;
         const double a = mean_weight(dielectric(ior, roughness), direction(degrees, 0), count);
         worst = std::max(worst, std::abs(a - 1));
+        // From inside, indices near 1 have their critical angle where the table is coarsest.
+        const double bound = kSanitized ? 6e-3 : ior < 1.2 && ior > 1 ? 1.5e-3 : 1e-3;
         // Weights spread by at most 0.5: 200 000 of them, were they independent, by 1.1e-3 about
         // their mean; points this even do better by two.
-        CHECK_MESSAGE(std::abs(a - 1) < (kSanitized ? 6e-3 : 2e-3), ior, " ", roughness, " at ",
-                      degrees, ": ", a);
+        CHECK_MESSAGE(std::abs(a - 1) < bound, ior, " ", roughness, " at ", degrees, ": ", a);
       }
   MESSAGE("dielectric: largest |albedo - 1| ", worst);
 }
@@ -190,9 +191,8 @@ TEST_CASE("matte keeps its colour") {
 }
 
 TEST_CASE("white under a white coat") {
-  for (double ior : {1.05, 1.2, 1.5, 2.5}) {
-    // The table's steps of index are widest, for what Fresnel's factor does, next to 1.
-    const double bound = ior < 1.1 ? 2e-3 : 1e-3;
+  for (double ior : {1.01, 1.05, 1.2, 1.5, 2.5}) {
+    const double bound = 1e-4;
     // The delta's part is added by hand: F.
     for (double degrees : {0.0, 30.0, 60.0, 85.0, 89.99}) {
       const double c = direction(degrees, 0).z;

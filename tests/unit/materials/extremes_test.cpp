@@ -49,6 +49,7 @@ std::vector<Material> extreme_materials() {
       m.push_back(tinted(lobe, 1, {0, g}));
     }
     m.push_back(tinted(Lobe::Phong, 1, {g}));
+    for (double ior : {1 + 1e-7, 1.0, 1.5, 0.25}) m.push_back(phong_glass(ior, g));
     m.push_back(tinted(Lobe::MaxPhong, 1, {g}));
     m.push_back(tinted(Lobe::AshikhminShirley, 0.5, {g, 2}));
   }
@@ -57,6 +58,10 @@ std::vector<Material> extreme_materials() {
       m.push_back(tinted(lobe, 1, {x}));
     for (Lobe lobe : {Lobe::Spot, Lobe::Ward, Lobe::AshikhminShirley, Lobe::GlossyProduct})
       m.push_back(tinted(lobe, 1, {x, x}));
+    m.push_back(phong_glass(x, x));
+    m.push_back(slab(x, x, x));
+    m.push_back(slab(1.5, 1e-3, x));
+    m.push_back(slab(x));
     m.push_back(film_conductor(x, x, x, x, x, 0.3));
     m.push_back(film_conductor(2, 3, 1.5, x, 500e-9, 0));
     m.push_back(film_dielectric(1.5, x, 1e-7, 500e-9));

@@ -96,11 +96,24 @@ inline Material conductor(Value n, Value k, double roughness = 0, double anisotr
 }
 inline Material mirror(Value c) { return node(Lobe::Mirror, {}, {c}); }
 inline Material refraction(Value ior, Value c = 1) { return node(Lobe::Refraction, {}, {ior, c}); }
-inline Material dielectric(Value ior, double roughness = 0, Value r = 1, Value t = 1) {
-  Material m = node(Lobe::Dielectric, {}, {ior}, {roughness});
+/// An interface: index, a number, two tints.
+inline Material interface(Lobe lobe, Value ior, double number, Value r, Value t) {
+  Material m = node(lobe, {}, {ior}, {number});
   m.tree.nodes.back().params.resize(4);
   m.numbers.insert(m.numbers.end(), r.s.v.begin(), r.s.v.end());
   m.numbers.insert(m.numbers.end(), t.s.v.begin(), t.s.v.end());
+  return m;
+}
+inline Material dielectric(Value ior, double roughness = 0, Value r = 1, Value t = 1) {
+  return interface(Lobe::Dielectric, ior, roughness, r, t);
+}
+inline Material phong_glass(Value ior, double n, Value r = 1, Value t = 1) {
+  return interface(Lobe::PhongGlass, ior, n, r, t);
+}
+inline Material slab(Value ior, double thickness = 0, Value absorption = 0) {
+  Material m = node(Lobe::Slab, {}, {ior}, {thickness});
+  m.tree.nodes.back().params.resize(3);
+  m.numbers.insert(m.numbers.end(), absorption.s.v.begin(), absorption.s.v.end());
   return m;
 }
 inline Material isotropic() { return node(Lobe::Isotropic, {}, {}); }

@@ -104,3 +104,53 @@ TEST_CASE("emission shapes") {
   }
   CHECK(shape(glossy(1, 40), direction(0, 0)) > shape(glossy(1, 40), direction(30, 0)));
 }
+
+TEST_CASE("emission shapes: samples follow them, sharp ones too") {
+  struct Row {
+    const char* name;
+    Material material;
+  };
+  const Row rows[] = {{"matte", matte(1)},
+                      {"translucent", translucent(1)},
+                      {"phong 1", tinted(Lobe::Phong, 1, {1})},
+                      {"phong 400", tinted(Lobe::Phong, 1, {400})},
+                      {"phong 1e6", tinted(Lobe::Phong, 1, {1e6})},
+                      {"glossy", glossy(1, 30)},
+                      {"spot, soft", tinted(Lobe::Spot, 1, {0, 1.5})},
+                      {"spot, sharp", tinted(Lobe::Spot, 1, {0.3, 0.3})},
+                      {"spot, narrow and all but sharp", tinted(Lobe::Spot, 1, {0.01, 0.0101})},
+                      {"spots", mix(tinted(Lobe::Spot, 1, {0.1, 0.2}), matte(1), 0.5)}};
+  const double level = stats::sidak(0.01, int(std::size(rows)));
+  std::uint64_t seed = 40;
+  for (const Row& row : rows) {
+    const materials::Layout layout = row.material.layout();
+    const auto p32 = row.material.params<float>();
+    const auto p64 = row.material.params<double>();
+    const materials::Bsdf<float> sampled(layout, p32.data());
+    const materials::Bsdf<double> exact(layout, p64.data());
+    const auto r =
+        stats::chi_square({.sample = [&](stats::Random& random) -> std::optional<Vec3d> {
+                             const float u = random.next_float(), u1 = random.next_float();
+                             const auto s = sampled.sample({0, 0, 1}, u, u1, random.next_float(),
+                                                           materials::Mode::Importance);
+                             if (!s) return {};
+                             return normalize(Vec3d(s->wi));
+                           },
+                           .pdf =
+                               [&](Vec3d w) {
+                                 return exact.pdf({0, 0, 1}, w, materials::Mode::Importance)[0];
+                               },
+                           .seed = ++seed});
+    CHECK_MESSAGE(r.passed(level), row.name, ": ", r.report());
+    // What a sample carries is the shape.
+    stats::Random random(seed);
+    for (int i = 0; i < 200; ++i) {
+      const double u = random.next(), u1 = random.next();
+      const auto s = exact.sample({0, 0, 1}, u, u1, random.next(), materials::Mode::Importance);
+      REQUIRE(s);
+      CHECK(
+          s->f[0] * kPi<double> ==
+          doctest::Approx(materials::emission_shape(layout, p64.data(), s->wi)[0]).epsilon(1e-12));
+    }
+  }
+}

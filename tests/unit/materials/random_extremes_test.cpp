@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "materials/emission.h"
 #include "tests/sanitized.h"
 #include "tests/stats/random.h"
 #include "tests/unit/materials/cases.h"
@@ -101,11 +102,24 @@ struct Counts {
   bool good() const { return nan + infinite + negative == 0; }
 };
 
+/// How many calls of each model: `MMS_EXTREME_CALLS`, or few.
+long long wanted_calls() {
+  const char* wanted = std::getenv("MMS_EXTREME_CALLS");
+  return wanted ? std::atoll(wanted) : kSanitized ? 1'000 : 30'000;
+}
+
+void report(const std::string& name, const Counts& counts, const std::string& first) {
+  CHECK_MESSAGE(counts.good(), name, ": ", counts.nan, " NaN, ", counts.infinite, " infinite, ",
+                counts.negative, " negative; first: ", first);
+  if (std::getenv("MMS_EXTREME_CALLS"))
+    MESSAGE(name, ": ", counts.calls, " calls, ", counts.empty, " without sample; ", counts.nan,
+            " NaN, ", counts.infinite, " infinite, ", counts.negative, " negative");
+}
+
 }  // namespace
 
 TEST_CASE("random calls of every model are finite and non-negative") {
-  const char* wanted = std::getenv("MMS_EXTREME_CALLS");
-  const long long calls = wanted ? std::atoll(wanted) : kSanitized ? 1'000 : 30'000;
+  const long long calls = wanted_calls();
   for (int k = 0; k < materials::kLobeCount; ++k) {
     const Lobe lobe = Lobe(k);
     if (materials::traits(lobe) & materials::PhaseFunction) continue;
@@ -141,11 +155,47 @@ TEST_CASE("random calls of every model are finite and non-negative") {
         }
       }
     }
-    CHECK_MESSAGE(counts.good(), materials::rows()[k].signature, ": ", counts.nan, " NaN, ",
-                  counts.infinite, " infinite, ", counts.negative, " negative; first: ", first);
-    if (wanted)
-      MESSAGE(materials::rows()[k].signature, ": ", counts.calls, " calls, ", counts.empty,
-              " without sample; ", counts.nan, " NaN, ", counts.infinite, " infinite, ",
-              counts.negative, " negative");
+    report(std::string(materials::rows()[k].signature), counts, first);
+  }
+}
+
+TEST_CASE("random calls of every phase function and emission shape are finite and non-negative") {
+  const long long calls = wanted_calls();
+  for (int k = 0; k < materials::kLobeCount; ++k) {
+    const Lobe lobe = Lobe(k);
+    const bool phase = (materials::traits(lobe) & materials::PhaseFunction) != 0;
+    stats::Random random(std::uint64_t(k + 100));
+    Counts counts;
+    std::string first;
+    while (counts.calls < calls) {
+      Material m = any_material(lobe, random);
+      if (phase) m = mix(m, henyey_greenstein(any_number(random)), any_number(random));
+      const materials::Layout layout = m.layout();
+      const auto p = m.params<float>();
+      for (int i = 0; i < 50; ++i) {
+        const Vec3<float> wo = any_direction(random, {0, 0, 1}), wi = any_direction(random, wo);
+        ++counts.calls;
+        if (!phase) {
+          counts.add(materials::emission_shape(layout, p.data(), wi));
+        } else {
+          const materials::Phase<float> function(layout, p.data());
+          counts.add(function.eval(wo, wi));
+          counts.add(function.pdf(wo, wi));
+          counts.add(materials::volume_emission_shape(layout, p.data(), wi));
+          const float u = random.next_float(), u1 = random.next_float();
+          const auto s = function.sample(wo, u, u1, random.next_float());
+          if (!s) {
+            ++counts.empty;
+          } else {
+            counts.add(s->f);
+            counts.add(s->pdf);
+            counts.nan += !(std::abs(length(s->wi) - 1) < 1e-4f);
+          }
+        }
+        if (!counts.good() && first.empty())
+          for (float x : p) first += std::to_string(x) + " ";
+      }
+    }
+    report(std::string(materials::rows()[k].signature), counts, first);
   }
 }

@@ -146,6 +146,8 @@ TEST_CASE("pdf of a delta is how often each wavelength as the hero would have le
       mix(mirror(1), matte(0.5), ramp(0.2, 0.6)),
       add(mirror(0.3), fresnel_mix(matte(0.5), dielectric(ramp(1.6, 1.5)), 1.5)),
       mix(dielectric(1.5), refraction(1.5), ramp(0.2, 0.8)),
+      slab(ramp(1.6, 1.4), 0.1, ramp(0.2, 3)),
+      phong_glass(ramp(1.6, 1.4), 1e9),
       conductor(ramp(0.2, 1), 3)};
   const int n = 4000;
   for (const Material& m : materials) {

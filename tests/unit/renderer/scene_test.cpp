@@ -67,7 +67,7 @@ TEST_CASE("every mistake names its place and what to try") {
   CHECK(holds(e.what, "expected 3 numbers, found 2"));
 
   e = error_of(R"({"objects": [{"surface": "wood"}]})");
-  CHECK(holds(e.what, "one of `sphere`, `quad`, `disc`, `box`, `lathe`, `mesh`"));
+  CHECK(holds(e.what, "one of `sphere`, `quad`, `disc`, `box`, `lathe`, `knot`, `mesh`"));
 
   e = error_of(R"({"objects": []})");
   CHECK(holds(e.what, "no object"));
@@ -301,4 +301,34 @@ TEST_CASE("an instance has the shape of a named object, and a place and surface 
                            {"instance": "pin", "disc": {}, "surface": "wood"}]})")
                   .what,
               "either `instance` or `disc`"));
+}
+
+TEST_CASE("a knot is a closed tube around a curve") {
+  HandProgram h;
+  h.matte("wood", 0.5);
+  Result<SceneData> r = parse_scene(
+      h.program, {},
+      R"({"objects": [{"surface": "wood", "knot": {"windings": [2, 3], "radius": 3, "tube": 0.4}}]})",
+      "s", "");
+  REQUIRE_MESSAGE(bool(r), (r ? "" : r.error().where + r.error().what));
+  const Mesh m = std::get<Mesh>(r->objects[0].shape);
+  // The curve's length by its own formula; by Pappus and Guldin a tube's area is that times its
+  // girth.
+  double curve = 0;
+  constexpr int n = 4096;
+  for (int i = 0; i < n; ++i) {
+    const double a = 2 * kPi<double> * i / n, far = 2 + std::cos(3 * a);
+    curve += std::sqrt(9 + 4 * far * far) * 2 * kPi<double> / n;
+  }
+  // Chords of 1/64 of the girth and 1/256 of each winding: short by angle squared over 24, each.
+  CHECK(area(Shape(m)) == doctest::Approx(curve * 2 * kPi<double> * 0.4).epsilon(1e-3));
+  CHECK(contains(Shape(m), {3, 0, 0}));
+  CHECK_FALSE(contains(Shape(m), {0, 0, 0}));
+  CHECK_FALSE(contains(Shape(m), {3.5, 0, 0}));
+  for (std::uint32_t t = 0; t < m.triangles.size(); t += 7) {
+    const SurfacePoint p = surface_at(m, t, 0.3, 0.3);
+    CHECK(dot(p.geometric_normal, p.normal) > 0.99);
+  }
+  CHECK(holds(error_of(R"({"objects": [{"knot": {"windings": [2, 4]}, "surface": "wood"}]})").what,
+              "without a common divisor"));
 }
