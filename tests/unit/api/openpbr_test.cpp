@@ -98,6 +98,9 @@ TEST_CASE("openpbr: its lossless settings keep all light") {
       {"bare", {{"base_color", "spectrum(1.0)"}, {"specular_weight", "0"}}, 1e-5},
       // The reflectance of metal ends at 0.9999 at normal incidence.
       {"metal", {{"base_color", "spectrum(1.0)"}, {"base_metalness", "1"}}, 1e-3},
+      {"pane",
+       {{"geometry_thin_walled", "true"}, {"transmission_weight", "1"}, {"specular_ior", "1.7"}},
+       1e-5},
       {"smooth film",
        {{"transmission_weight", "1"},
         {"specular_ior", "1"},
@@ -145,6 +148,8 @@ TEST_CASE("openpbr: params at the ends of their ranges give light, and no more t
                    {"specular_roughness", k & 4 ? "0" : "1"},
                    {"coat_roughness", k & 8 ? "0.5" : "0"},
                    {"transmission_dispersion_scale", k & 8 ? "1" : "0"},
+                   {"geometry_thin_walled", k & 8 ? "true" : "false"},
+                   {"subsurface_weight", k & 4 ? "0.7" : "0"},
                    {"base_color", "spectrum(1.0)"}});
   const std::size_t count = kSanitized ? 64 : 1024;
   for (const Settings& settings : all) {
