@@ -15,30 +15,11 @@
 namespace mms::api {
 namespace {
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
 /// `import "openpbr";` with these params, linked.
-struct OpenPbr {
-  explicit OpenPbr(const Settings& settings, int level = O2) {
-    MMsGraph* graph = mmsMkGraph();
-    mmsParseString(*graph, std::string("import \"openpbr\"; paint alias openpbr;"));
-    mmsAddGraph(*program, *graph);
-    for (const auto& [name, value] : settings) mmsSetParam(program, name.c_str(), value.c_str());
-    if (mmsLinkProgram(*program, level)) context = mmsMkContext(*program);
-    log = std::string(mmsGetGraphLog(*graph)) + mmsGetProgramLog(*program);
-    mmsDeleteGraph(graph);
-  }
-  ~OpenPbr() {
-    mmsDeleteContext(context);
-    mmsDeleteProgram(program);
-  }
-  OpenPbr(const OpenPbr&) = delete;
-  OpenPbr& operator=(const OpenPbr&) = delete;
+struct OpenPbr : Linked {
+  explicit OpenPbr(const Settings& settings, int level = O2)
+      : Linked("import \"openpbr\"; paint alias openpbr;", level, settings) {}
   MMsSurface* surface() const { return mmsGetSurface(program, "paint"); }
-
-  MMsProgram* program = mmsMkProgram();
-  MMsContext* context = nullptr;
-  std::string log;
 };
 
 /// The weights of samples along one direction, at the first wavelength.
@@ -47,21 +28,27 @@ struct Weights {
   int bad = 0;                 ///< numbers that are not finite or negative, densities that are 0
 };
 
-/// Points of an additive recurrence (R_3: g^4 = g + 1), so that means err by less than `error`.
+/// The digits of `i` in `base`, mirrored at the point: Halton's sequence.
+float mirrored_digits(std::size_t i, std::size_t base) {
+  double value = 0, digit = 1;
+  for (; i > 0; i /= base) value += (digit /= double(base)) * double(i % base);
+  return std::min(float(value), 0x1.fffffep-1f);
+}
+
+/// By points of Halton's sequence, which spread more evenly than independent ones: means err by
+/// less than `error`.
 Weights weights(const OpenPbr& p, double cosine, std::size_t count) {
   const float wavelengths[8] = {550e-9f, 430e-9f, 470e-9f, 510e-9f,
                                 590e-9f, 630e-9f, 670e-9f, 710e-9f};
   std::vector<float> wo(3 * count), u(3 * count), wi(3 * count), f(8 * count), pdf(8 * count),
       metres(8 * count);
   std::vector<unsigned char> flags(count);
-  constexpr double kStep[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+  constexpr std::size_t kBases[3] = {2, 3, 5};
   for (std::size_t i = 0; i < count; ++i) {
     wo[i] = float(0.8 * std::sqrt(1 - cosine * cosine));
     wo[count + i] = float(0.6 * std::sqrt(1 - cosine * cosine));
     wo[2 * count + i] = float(cosine);
-    for (std::size_t k = 0; k < 3; ++k)
-      u[k * count + i] =
-          std::min(float(std::fmod(0.5 + kStep[k] * double(i), 1.0)), 0x1.fffffep-1f);
+    for (std::size_t k = 0; k < 3; ++k) u[k * count + i] = mirrored_digits(i + 1, kBases[k]);
     for (std::size_t c = 0; c < 8; ++c) metres[c * count + i] = wavelengths[c];
   }
   const MMsInput input{"wavelength", metres.data()};
