@@ -55,6 +55,7 @@ param real emission_luminance = 0.0 in [0, 1000000], label = "Luminance", unit =
 param spectrum emission_color = rgb(1.0, 1.0, 1.0), label = "Colour", page = "Emission";
 
 param real geometry_opacity = 1.0 in [0, 1], label = "Opacity", page = "Geometry";
+param logic geometry_thin_walled = false, label = "Thin-walled", page = "Geometry";
 
 surface openpbr
     bsdf = openpbr(base_weight = base_weight, base_color = base_color,
@@ -66,12 +67,14 @@ surface openpbr
         transmission_depth = transmission_depth,
         transmission_dispersion_scale = transmission_dispersion_scale,
         transmission_dispersion_abbe_number = transmission_dispersion_abbe_number,
-        subsurface_weight = subsurface_weight, coat_weight = coat_weight, coat_color = coat_color,
+        subsurface_weight = subsurface_weight, subsurface_color = subsurface_color,
+        subsurface_scatter_anisotropy = subsurface_scatter_anisotropy,
+        coat_weight = coat_weight, coat_color = coat_color,
         coat_roughness = coat_roughness, coat_roughness_anisotropy = coat_roughness_anisotropy,
         coat_ior = coat_ior, coat_darkening = coat_darkening, fuzz_weight = fuzz_weight,
         fuzz_color = fuzz_color, fuzz_roughness = fuzz_roughness,
         thin_film_weight = thin_film_weight, thin_film_thickness = thin_film_thickness,
-        thin_film_ior = thin_film_ior);
+        thin_film_ior = thin_film_ior, geometry_thin_walled = geometry_thin_walled);
     emission = openpbr_emission(emission_luminance = emission_luminance,
         emission_color = emission_color, coat_weight = coat_weight, coat_color = coat_color);
     scattering = geometry_opacity;
@@ -84,7 +87,8 @@ volume openpbr
         transmission_scatter_anisotropy = transmission_scatter_anisotropy,
         subsurface_weight = subsurface_weight, subsurface_color = subsurface_color,
         subsurface_radius = subsurface_radius, subsurface_radius_scale = subsurface_radius_scale,
-        subsurface_scatter_anisotropy = subsurface_scatter_anisotropy);
+        subsurface_scatter_anisotropy = subsurface_scatter_anisotropy,
+        geometry_thin_walled = geometry_thin_walled);
     scattering = inside.scattering;
     absorption = inside.absorption;
     phase      = henyey_greenstein(inside.anisotropy);

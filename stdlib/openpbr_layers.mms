@@ -124,7 +124,7 @@ end
 /// The inside of OpenPBR's surface, for a volume: `inside = openpbr_inside(subsurface_weight = 1);
 /// scattering = inside.scattering; absorption = inside.absorption; phase =
 /// henyey_greenstein(inside.anisotropy);`. Lengths are in metres. Of both transmission and
-/// subsurface it is the mixture, by their shares of the surface. `subsurface_color` is what a deep
+/// subsurface it is the mixture, by their shares of the surface; what is thin-walled has no inside. `subsurface_color` is what a deep
 /// body of it sends back, found by the fit of Kulla and Conty (2017).
 /// >>> openpbr_inside(transmission_weight = 1.0, transmission_color = 0.5, transmission_depth = 2.0).absorption
 /// 0.34657359
@@ -139,20 +139,22 @@ openpbr_medium openpbr_inside(
     spectrum subsurface_color = 0.8,
     real subsurface_radius = 1.0,
     spectrum subsurface_radius_scale = rgb(1.0, 0.5, 0.25),
-    real subsurface_scatter_anisotropy = 0.0
+    real subsurface_scatter_anisotropy = 0.0,
+    logic geometry_thin_walled = false
 )
-    glass = saturate(transmission_weight);
-    deep  = (1.0 - glass) * saturate(subsurface_weight);
+    there = select 0.0, if geometry_thin_walled; 1.0 otherwise; end;
+    glass = there * saturate(transmission_weight);
+    deep  = there * (1.0 - saturate(transmission_weight)) * saturate(subsurface_weight);
     share = deep / max(glass + deep, 1e-9);
 
     depth    = max(transmission_depth, 1e-6);
     scatters = select
-        max(transmission_scatter, 0.0) / depth, if transmission_depth > 0.0;
+        max(transmission_scatter, 0.0) / depth, if there * transmission_depth > 0.0;
         spectrum(0.0) otherwise;
     end;
     absorbs = select
         max(absorption_from(transmission_color, depth) - scatters, 0.0),
-            if transmission_depth > 0.0;
+            if there * transmission_depth > 0.0;
         spectrum(0.0) otherwise;
     end;
 
@@ -192,13 +194,16 @@ material openpbr(
     transmission_weight = 0.0,
     spectrum transmission_color = 1.0,
     real transmission_depth = 0.0, transmission_dispersion_scale = 0.0,
-    transmission_dispersion_abbe_number = 20.0, subsurface_weight = 0.0, coat_weight = 0.0,
+    transmission_dispersion_abbe_number = 20.0, subsurface_weight = 0.0,
+    spectrum subsurface_color = 0.8,
+    real subsurface_scatter_anisotropy = 0.0, coat_weight = 0.0,
     spectrum coat_color = 1.0,
     real coat_roughness = 0.0, coat_roughness_anisotropy = 0.0, coat_ior = 1.6,
     coat_darkening = 1.0, fuzz_weight = 0.0,
     spectrum fuzz_color = 1.0,
     real fuzz_roughness = 0.5, thin_film_weight = 0.0, thin_film_thickness = 0.5,
-    thin_film_ior = 1.4
+    thin_film_ior = 1.4,
+    logic geometry_thin_walled = false
 )
     film  = thin_film_thickness * 1um;
     dark  = saturate(coat_weight) * saturate(coat_darkening);
@@ -238,11 +243,20 @@ material openpbr(
         saturate(thin_film_weight)
     );
 
+    // A sheet without an inside: a pane, and a leaf that scatters to both of its sides.
+    onward = 0.5 * (1.0 + clamp(subsurface_scatter_anisotropy, -1.0, 1.0));
+    sheet  = mix(
+        mix(matte(subsurface_color), translucent(subsurface_color), onward),
+        slab(specular_ior, 1.0, absorption_from(transmission_color, 1.0)),
+        through / max(share, 1e-9)
+    );
+    other = select sheet, if geometry_thin_walled; clear otherwise; end;
+
     metal = saturate(specular_weight) * openpbr_metal(
         base, specular_color, specular_roughness, specular_roughness_anisotropy,
         thin_film_weight, film, thin_film_ior
     );
-    body  = mix(mix(opaque, clear, share), metal, saturate(base_metalness));
+    body  = mix(mix(opaque, other, share), metal, saturate(base_metalness));
     shown = coat(
         openpbr_gloss(1.0, coat_roughness, coat_roughness_anisotropy),
         body,

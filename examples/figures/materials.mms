@@ -27,9 +27,12 @@ surface beckmann bsdf = beckmann(1, 0.4); end
 surface conductor bsdf = conductor(gold_n($wavelength), gold_k($wavelength), 0.3); end
 surface dielectric bsdf = dielectric(1.5, 0.3); end
 
+surface phong_glass bsdf = phong_glass(1.5, 400.0); end
+
 // Smooth.
 surface mirror bsdf = mirror(1); end
 surface refraction bsdf = refraction(1.3); end
+surface slab bsdf = slab(1.5, 1.0, rgb(0.9, 0.3, 0.6)); end
 surface film_conductor bsdf = film_conductor(2.5, 3.0, 1.5, 300nm, $wavelength, 0.2); end
 surface film_dielectric bsdf = film_dielectric(1.0, 1.33, 400nm, $wavelength); end
 

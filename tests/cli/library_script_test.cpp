@@ -24,3 +24,17 @@ TEST_CASE("the library's script is found by its name, by verbs and by imports") 
   const Outcome near = folder.mms("check opnpbr.mms");
   CHECK(near.exit != 0);
 }
+
+TEST_CASE("openpbr's weights are proven never to exceed one") {
+  const Folder folder;
+  for (const char* settings :
+       {"", "--set base_metalness=0.5 --set coat_weight=1 --set thin_film_weight=0.5",
+        "--set transmission_weight=0.5 --set coat_weight=0.4 --set fuzz_weight=1",
+        "--set subsurface_weight=0.5 --set geometry_thin_walled=true --set "
+        "base_diffuse_roughness=1"}) {
+    const Outcome run = folder.mms(std::string("info openpbr ") + settings);
+    INFO(settings, run.err);
+    CHECK(run.exit == 0);
+    CHECK(contains(run.out, "proven: weights never exceed one"));
+  }
+}

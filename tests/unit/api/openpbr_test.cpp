@@ -15,30 +15,11 @@
 namespace mms::api {
 namespace {
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
 /// `import "openpbr";` with these params, linked.
-struct OpenPbr {
-  explicit OpenPbr(const Settings& settings, int level = O2) {
-    MMsGraph* graph = mmsMkGraph();
-    mmsParseString(*graph, std::string("import \"openpbr\"; paint alias openpbr;"));
-    mmsAddGraph(*program, *graph);
-    for (const auto& [name, value] : settings) mmsSetParam(program, name.c_str(), value.c_str());
-    if (mmsLinkProgram(*program, level)) context = mmsMkContext(*program);
-    log = std::string(mmsGetGraphLog(*graph)) + mmsGetProgramLog(*program);
-    mmsDeleteGraph(graph);
-  }
-  ~OpenPbr() {
-    mmsDeleteContext(context);
-    mmsDeleteProgram(program);
-  }
-  OpenPbr(const OpenPbr&) = delete;
-  OpenPbr& operator=(const OpenPbr&) = delete;
+struct OpenPbr : Linked {
+  explicit OpenPbr(const Settings& settings, int level = O2)
+      : Linked("import \"openpbr\"; paint alias openpbr;", level, settings) {}
   MMsSurface* surface() const { return mmsGetSurface(program, "paint"); }
-
-  MMsProgram* program = mmsMkProgram();
-  MMsContext* context = nullptr;
-  std::string log;
 };
 
 /// The weights of samples along one direction, at the first wavelength.
@@ -47,21 +28,27 @@ struct Weights {
   int bad = 0;                 ///< numbers that are not finite or negative, densities that are 0
 };
 
-/// Points of an additive recurrence (R_3: g^4 = g + 1), so that means err by less than `error`.
+/// The digits of `i` in `base`, mirrored at the point: Halton's sequence.
+float mirrored_digits(std::size_t i, std::size_t base) {
+  double value = 0, digit = 1;
+  for (; i > 0; i /= base) value += (digit /= double(base)) * double(i % base);
+  return std::min(float(value), 0x1.fffffep-1f);
+}
+
+/// By points of Halton's sequence, which spread more evenly than independent ones: means err by
+/// less than `error`.
 Weights weights(const OpenPbr& p, double cosine, std::size_t count) {
   const float wavelengths[8] = {550e-9f, 430e-9f, 470e-9f, 510e-9f,
                                 590e-9f, 630e-9f, 670e-9f, 710e-9f};
   std::vector<float> wo(3 * count), u(3 * count), wi(3 * count), f(8 * count), pdf(8 * count),
       metres(8 * count);
   std::vector<unsigned char> flags(count);
-  constexpr double kStep[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+  constexpr std::size_t kBases[3] = {2, 3, 5};
   for (std::size_t i = 0; i < count; ++i) {
     wo[i] = float(0.8 * std::sqrt(1 - cosine * cosine));
     wo[count + i] = float(0.6 * std::sqrt(1 - cosine * cosine));
     wo[2 * count + i] = float(cosine);
-    for (std::size_t k = 0; k < 3; ++k)
-      u[k * count + i] =
-          std::min(float(std::fmod(0.5 + kStep[k] * double(i), 1.0)), 0x1.fffffep-1f);
+    for (std::size_t k = 0; k < 3; ++k) u[k * count + i] = mirrored_digits(i + 1, kBases[k]);
     for (std::size_t c = 0; c < 8; ++c) metres[c * count + i] = wavelengths[c];
   }
   const MMsInput input{"wavelength", metres.data()};
@@ -98,6 +85,9 @@ TEST_CASE("openpbr: its lossless settings keep all light") {
       {"bare", {{"base_color", "spectrum(1.0)"}, {"specular_weight", "0"}}, 1e-5},
       // The reflectance of metal ends at 0.9999 at normal incidence.
       {"metal", {{"base_color", "spectrum(1.0)"}, {"base_metalness", "1"}}, 1e-3},
+      {"pane",
+       {{"geometry_thin_walled", "true"}, {"transmission_weight", "1"}, {"specular_ior", "1.7"}},
+       1e-5},
       {"smooth film",
        {{"transmission_weight", "1"},
         {"specular_ior", "1"},
@@ -145,6 +135,8 @@ TEST_CASE("openpbr: params at the ends of their ranges give light, and no more t
                    {"specular_roughness", k & 4 ? "0" : "1"},
                    {"coat_roughness", k & 8 ? "0.5" : "0"},
                    {"transmission_dispersion_scale", k & 8 ? "1" : "0"},
+                   {"geometry_thin_walled", k & 8 ? "true" : "false"},
+                   {"subsurface_weight", k & 4 ? "0.7" : "0"},
                    {"base_color", "spectrum(1.0)"}});
   const std::size_t count = kSanitized ? 64 : 1024;
   for (const Settings& settings : all) {
