@@ -7,6 +7,7 @@
 
 #include "renderer/media.h"
 #include "scenes.h"
+#include "tests/sanitized.h"
 
 using namespace mms;
 using namespace mms::renderer;
@@ -101,6 +102,32 @@ TEST_CASE("furnace: overlapping clouds of different colours and phase functions 
     {"sphere": {}, "volume": "a"}, {"sphere": {"center": [0.3, 0.2, 0.4]}, "volume": "b"}]})");
   const Film film = run(p, s, options(24, 32)).film;
   check_mean(film, 1);
+}
+
+TEST_CASE("strongly coloured media: tentative collisions scatter as the closed form does") {
+  const auto see = [](const char* place) {
+    const vm::Program p = compile(fmt::format(
+        "volume a\n scattering = rgb(0.3, 1.5, 5){0}; absorption = rgb(1.5, 0.4, 0.05){0};\n"
+        " phase = henyey_greenstein(0.7); bound = 12;\nend\n",
+        place));
+    const Scene s = scene_of(p, R"({"environment": {"constant": 0.2},
+      "materials": {"lamp": {"matte": 0, "emission": 3}}, "objects": [{"sphere": {}, "test": true},
+      {"disc": {"center": [0, 4, 3], "normal": [0, -4, -3], "radius": 2}, "surface": "lamp"}]})");
+    return run(p, s, options(24, kSanitized ? 16 : 128)).film;
+  };
+  const Film even = see(""), varied = see(" + 0 * $position.x");
+  const Mean a = mean_luminance(even), b = mean_luminance(varied);
+  INFO(a.value, " +- ", a.error, ", ", b.value, " +- ", b.error);
+  CHECK(std::abs(a.value - b.value) < 4 * std::hypot(a.error, b.error));
+  CHECK(b.error < (kSanitized ? 0.05 : 0.01) * b.value);
+  // Colours too: X and Z, whose errors are about those of Y.
+  for (const int k : {0, 2}) {
+    double difference = 0;
+    for (std::size_t i = 0; i < even.xyz.size(); ++i)
+      difference +=
+          (even.xyz[i][std::size_t(k)] - varied.xyz[i][std::size_t(k)]) / double(even.xyz.size());
+    CHECK(std::abs(difference) < 8 * std::hypot(a.error, b.error));
+  }
 }
 
 TEST_CASE("a higher priority takes the place of a lower volume") {
