@@ -19,8 +19,9 @@ namespace {
 
 constexpr int kPoints = 1024, kRounds = 31;
 
-/// A call, where `{p}` is the place, `{period}` periods, `{f}` a frequency; and how many dimensions
-/// it has: bit n - 1 for n.
+/// A call, where `{p}` is the place, `{period}` periods, `{a}` and `{periods}` the same as arrays
+/// always, `{f}` a frequency, `{second}` orders of derivatives; and how many dimensions it has:
+/// bit n - 1 for n.
 struct Call {
   const char* title;
   const char* text;
@@ -28,27 +29,43 @@ struct Call {
 };
 constexpr Call kCalls[] = {
     {"`hash`", "hash({p})"},
+    {"`hash`, seed", "hash({p}, 7)"},
     {"`cellnoise`", "cellnoise({p})"},
     {"`cellnoise`, seed and period", "cellnoise({p}, 7, {period})"},
     {"`perlin`", "perlin({p})"},
     {"`perlin`, seed and period", "perlin({p}, 7, {period})"},
     {"`perlin_gradient`", "perlin_gradient({p})"},
     {"`perlin_vector`", "perlin_vector({p})", 14},
+    {"`perlin_derivative`, second", "perlin_derivative({p}{second})"},
     {"`valuenoise`", "valuenoise({p})"},
     {"`valuenoise`, seed and period", "valuenoise({p}, 7, {period})"},
+    {"`valuenoise_gradient`", "valuenoise_gradient({p})"},
     {"`simplex`", "simplex({p})"},
     {"`simplex`, seed and period", "simplex({p}, 7, {period})"},
     {"`simplex_gradient`", "simplex_gradient({p})"},
+    {"`simplex_vector`", "simplex_vector({p})", 14},
     {"`worley`, 9 or 27 cells", "worley({p})", 6},
+    {"`voronoi`, the same", "voronoi({p})", 6},
     {"`worley_pair`, 9 or 27 cells", "worley_pair({p})", 6},
     {"`worley_distances`: F1, F2, F3", "worley_distances({a})"},
     {"the same by Manhattan", "worley_distances({a}, 0, manhattan)"},
     {"the same by Minkowski, 3", "worley_distances({a}, 0, 3.0)"},
+    {"`worley_squared`", "worley_squared({a})"},
     {"`worley_edge`", "worley_edge({a})"},
+    {"`worley_id`", "worley_id({a})"},
     {"`gabor`", "gabor({a}, {f})"},
     {"`gabor`, filtered", "gabor({a}, {f}, 0, 0.1 * {f})"},
     {"`gabor_isotropic`", "gabor_isotropic({a}, 2.0)"},
     {"`fbm`, 6 octaves", "fbm({a}, 6)", 14},
+    {"`fbm_tiled`, 6 octaves", "fbm_tiled(#perlin, {a}, {periods}, 6)", 14},
+    {"`turbulence`, 6 octaves", "turbulence({a}, 6)", 14},
+    {"`ridged`, 6 octaves", "ridged({a}, 6)", 14},
+    {"`multifractal`, 6 octaves", "multifractal(#perlin, {a}, 6)", 14},
+    {"`hetero_terrain`, 6 octaves", "hetero_terrain(#perlin, {a}, 6)", 14},
+    {"`ridged_multifractal`, 6 octaves", "ridged_multifractal(#perlin, {a}, 6)", 14},
+    {"`domain_warp`, twice", "domain_warp(#perlin, {a}, 0.8, 2)", 14},
+    {"`curl`", "curl(#perlin, {a})", 6},
+    {"`flow`, 6 octaves", "flow(#perlin, {a}, 6)", 14},
 };
 
 /// The first n of `parts` as an array.
@@ -71,6 +88,8 @@ std::string text_of(const Call& call, int n) {
   put("{p}", n == 1 ? scalar(places) : places);
   put("{period}", n == 1 ? scalar(periods) : periods);
   put("{a}", places);
+  put("{periods}", periods);
+  put("{second}", std::string(", 2, 0, 0, 0").substr(0, std::size_t(3 * n)));
   put("{f}", array_of({"2", "1", "0", "1"}, n));
   return "const value = " + text + ";";
 }

@@ -35,6 +35,7 @@ Function simplex_of1, simplex_of2, simplex_of3, simplex_of4;
 Function simplex_gradient_of1, simplex_gradient_of2, simplex_gradient_of3, simplex_gradient_of4;
 Function perlin_derivative1, perlin_derivative2, perlin_derivative3, perlin_derivative4;
 Function hash1, hash2, hash3, hash4, cells1, cells2, cells3, cells4;
+Function hash_of1, hash_of2, hash_of3, hash_of4;
 Function cells_of1, cells_of2, cells_of3, cells_of4;
 Function worley_ways1, worley_ways2, worley_ways3, worley_ways4;
 Function worley_border1, worley_border2, worley_border3, worley_border4;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Enclosures of white and cellular noise. Distances to random points change no faster than the
 // point moves.
+#include <array>
+
 #include "stdlib/bounds.h"
 #include "stdlib/bounds_lattice.h"
 
 #define MMS_ISA lattice_cells
 #include "stdlib/cells.h"
+#include "stdlib/worley.h"
 
 namespace mms::stdlib::bounds {
 
@@ -50,6 +53,15 @@ void hash(const Interval* in, Interval* out, Value value) {
   out[0] = Interval::point(value(x));
 }
 
+template <int N, std::size_t... K>
+void hash_of(const Interval* in, Interval* out, std::index_sequence<K...>) {
+  using Calls = lattice_cells::CellCalls<double, std::index_sequence<K...>>;
+  out[0].nan = false;
+  if (!in[N].is_point()) return;
+  const auto seed = static_cast<std::int32_t>(in[N].lo);
+  hash<N>(in, out, [&](const double(&x)[N]) { return Calls::hash(x[K]..., seed); });
+}
+
 /// Distances found at the centre move by at most the radius of the box. What is found is the
 /// nearest point as long as that is within 1, the width of a cell; else it may be farther.
 template <int N>
@@ -87,6 +99,70 @@ void worley_found(const Interval* in, Interval* out, int points) {
   for (int k = 0; k < points * N; ++k) out[k] = {-most, most, !number};
 }
 
+double minkowski(const double* way, int n, double exponent) {
+  double sum = 0, most = 0;
+  for (int k = 0; k < n; ++k) {
+    most = std::max(most, std::fabs(way[k]));
+    sum += std::pow(std::fabs(way[k]), std::max(exponent, 1.0));
+  }
+  return exponent > lattice_cells::kMostExponent ? most
+                                                 : std::pow(sum, 1 / std::max(exponent, 1.0));
+}
+
+/// The ways from the three points that are nearest to `p`, by the kernel.
+template <int N>
+std::array<double, 3 * N> ways_at(const double (&p)[N], const Interval* in) {
+  constexpr int kLanes = vm::kLaneMultiple;
+  alignas(64) double reals[2 * N + 3][kLanes];
+  alignas(64) std::int32_t seed[kLanes];
+  alignas(64) double results[3 * N][kLanes];
+  const void* from[2 * N + 3];
+  void* to[3 * N];
+  std::fill_n(seed, kLanes, static_cast<std::int32_t>(in[N].lo));
+  for (int k = 0; k < 2 * N + 3; ++k) {
+    std::fill_n(reals[k], kLanes, k < N ? p[k] : in[k].lo);
+    from[k] = k == N ? static_cast<const void*>(seed) : reals[k];
+  }
+  for (int k = 0; k < 3 * N; ++k) to[k] = results[k];
+  using lattice_cells::WorleyPart;
+  lattice_cells::worley_kernel<double, N, WorleyPart::Ways, false>(from, to, kLanes);
+  std::array<double, 3 * N> ways;
+  for (int k = 0; k < 3 * N; ++k) ways[k] = results[k][0];
+  return ways;
+}
+
+/// A way from a point that is the nearest one all over the box moves as p does; so do those of two
+/// points that may change places. What is farther than 2 may not have been found.
+template <int N>
+void worley_ways(const Interval* in, Interval* out) {
+  worley_found<N>(in, out, 3);
+  double centre[N], half[N], move = 0;  // by Manhattan's distance, which is the largest
+  for (int k = 0; k < N; ++k) {
+    if (in[k].nan || !(in[k].magnitude() < 0x1p30)) return;
+    centre[k] = 0.5 * (in[k].lo + in[k].hi);
+    half[k] = std::max(in[k].hi - centre[k], centre[k] - in[k].lo);
+    move += half[k];
+  }
+  for (int k = N; k < 2 * N + 3; ++k)
+    if (!in[k].is_point()) return;
+  if (move > 1 || in[2 * N + 1].magnitude() > 1) return;
+  const auto ways = ways_at(centre, in);
+  double d[3];
+  for (int j = 0; j < 3; ++j)
+    d[j] = std::min(minkowski(&ways[std::size_t(j * N)], N, in[2 * N + 2].lo), 2.0);
+  const double enough = 2 * move + 1e-3;  // kernels compare powers that are not exact
+  const bool first = d[1] - d[0] > enough, second = d[2] - d[1] > enough;
+  for (int k = 0; k < N; ++k) {
+    const auto moved = [&](double a, double b) {
+      const double slack = half[k] + kDistanceError;
+      return Interval{std::min(a, b) - slack, std::max(a, b) + slack, false};
+    };
+    const double a = ways[std::size_t(k)], b = ways[std::size_t(N + k)];
+    if (first || second) out[k] = first ? moved(a, a) : moved(a, b);
+    if (second) out[N + k] = first ? moved(b, b) : moved(a, b);
+  }
+}
+
 }  // namespace
 
 // A functor over one value type at N coordinates.
@@ -113,14 +189,22 @@ template <int N>
 void cells_of(const Interval* in, Interval* out) {
   cells_of<N>(in, out, std::make_index_sequence<N>());
 }
+template <int N>
+void hash_of(const Interval* in, Interval* out) {
+  hash_of<N>(in, out, std::make_index_sequence<N>());
+}
+void hash_of1(const Interval* in, Interval* out) { hash_of<1>(in, out); }
+void hash_of2(const Interval* in, Interval* out) { hash_of<2>(in, out); }
+void hash_of3(const Interval* in, Interval* out) { hash_of<3>(in, out); }
+void hash_of4(const Interval* in, Interval* out) { hash_of<4>(in, out); }
 void cells_of1(const Interval* in, Interval* out) { cells_of<1>(in, out); }
 void cells_of2(const Interval* in, Interval* out) { cells_of<2>(in, out); }
 void cells_of3(const Interval* in, Interval* out) { cells_of<3>(in, out); }
 void cells_of4(const Interval* in, Interval* out) { cells_of<4>(in, out); }
 
-void worley_ways1(const Interval* in, Interval* out) { worley_found<1>(in, out, 3); }
-void worley_ways2(const Interval* in, Interval* out) { worley_found<2>(in, out, 3); }
-void worley_ways3(const Interval* in, Interval* out) { worley_found<3>(in, out, 3); }
+void worley_ways1(const Interval* in, Interval* out) { worley_ways<1>(in, out); }
+void worley_ways2(const Interval* in, Interval* out) { worley_ways<2>(in, out); }
+void worley_ways3(const Interval* in, Interval* out) { worley_ways<3>(in, out); }
 void worley_ways4(const Interval* in, Interval* out) { worley_found<4>(in, out, 3); }
 void worley_border1(const Interval* in, Interval* out) { worley_found<1>(in, out, 2); }
 void worley_border2(const Interval* in, Interval* out) { worley_found<2>(in, out, 2); }

@@ -123,10 +123,10 @@ spectrum strengthen(spectrum s, real amount) = strengthen(s, amount, luminance(s
 spectrum strengthen(function(real) -> real f, real amount) =
     strengthen(spectral(f), amount, xyz_of(f)[1]);
 
-/// The wavelength that many turns further along the circle of hues, towards blue: the light from 400 to
-/// 700 nm, closed by purple. In metres.
-/// >>> turned_wavelength(650nm, -1 / 3) / 1nm
-/// 450
+/// The wavelength that many turns back along the circle of hues, from blue to green and red: the light
+/// from 400 to 700 nm, closed by purple. In metres.
+/// >>> turned_wavelength(450nm, 1 / 3) / 1nm
+/// 550
 real turned_wavelength(real wavelength, turns) =
     400nm + 300nm * fract((wavelength - 400nm) / 300nm + turns);
 

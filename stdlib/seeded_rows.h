@@ -96,7 +96,7 @@ struct CellRow {
                     .example = "hash" MMS_EXAMPLE##N ", 7)",                                       \
                     .derivative = MMS_ZEROS##N "; 0",                                              \
                     .cost = 3 + 2 * N,                                                             \
-                    .bounds = {vm::BoundsForm::Range, nullptr, 0, 1}}),                            \
+                    .bounds = {vm::BoundsForm::Range, bounds::hash_of##N, 0, 1}}),                 \
       CellRow<N>::cell(                                                                            \
           {.signature = "real cellnoise(" MMS_OF##N ")",                                           \
            .doc = "A number in [0, 1) for each unit cell, another one for every seed; it repeats " \

@@ -311,6 +311,51 @@ TEST_CASE("bounds: what occurs twice is seen to be one value") {
   CHECK(blend.hi < 2 + 1e-5);
 }
 
+TEST_CASE("bounds: noise over a small box is about as wide as it is steep") {
+  // A box of edge 0.01, with a seed; how steep the noises are at most a unit, and twice that for
+  // what the parts of an expression do not know of one another.
+  const struct {
+    const char* call;
+    double steepest;
+  } noises[] = {{"simplex(p, 7)", 8},
+                {"worley_f1(p, 7)", 2},
+                {"worley_f2(p, 7)", 2},
+                {"worley_f1(p, 7, chebyshev)", 2},
+                {"cellnoise(p, 7)", 0},
+                {"gabor(p, [2, 1], 7)", 40},
+                {"gabor_isotropic(p, 2.0, 7)", 40}};
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> unit(0, 9);
+  for (const auto& noise : noises) {
+    CAPTURE(noise.call);
+    std::vector<double> widths;
+    for (int k = 0; k < (kSanitized ? 5 : 25); ++k) {
+      const std::string p = fmt::format("[{} + 0.005 * $position.x, {} + 0.005 * $position.y]",
+                                        unit(random), unit(random));
+      const Compiled c = compile("real f(real[2] p) = " + std::string(noise.call) +
+                                 ";\nreal out() = f(" + p + ");\n");
+      REQUIRE(c.linked);
+      vm::BoundsMachine machine(c.linked->program);
+      const auto function = c.linked->program.exports.at(0).function;
+      const Interval bounds = machine.run(function, vm::Box::unit_sphere()).results.at(0);
+      CHECK(!bounds.nan);
+      widths.push_back(bounds.width());
+      const vm::Executable executable(c.linked->program);
+      auto in = golden::points<float>(64, std::uint32_t(k));
+      for (int axis = 0; axis < 2; ++axis)
+        for (int i = 0; i < 64; ++i) {
+          float& x = in.lanes(vm::Variable::Position, axis)[i];
+          x = std::clamp(x, -1.0f, 1.0f);
+        }
+      const auto run = golden::run(c.linked->program, executable, function, in, 64);
+      for (int i = 0; i < 64; ++i) CHECK(bounds.contains(run.values[0][std::size_t(i)]));
+    }
+    // The median: now and then a cell's border or another point is near.
+    std::nth_element(widths.begin(), widths.begin() + widths.size() / 2, widths.end());
+    CHECK(widths[widths.size() / 2] <= 2 * 0.01 * noise.steepest + 1e-4);
+  }
+}
+
 TEST_CASE("bounds: a colour stays between its parts at every wavelength") {
   for (double nm = kLambdaMin - 1; nm <= kLambdaMax + 1; nm += 0.01) {
     const double red = materials::rgb_red(nm), green = materials::rgb_green(nm);
