@@ -25,7 +25,7 @@ std::uint32_t asked_after(std::uint32_t samples) {
   return samples + std::max(8u, octave / 4);
 }
 
-/// Where paths meet media many of them are worked on together, for full batches; but every thread
+/// Where scripts run many paths are worked on together, for full batches; but every thread
 /// is to have some turns of a picture.
 int chunks_at_once(std::int64_t tiles, int threads) {
   return int(std::clamp<std::int64_t>(tiles / (8 * threads), 1, 8));
@@ -88,7 +88,7 @@ std::vector<Job::Chunk> Job::next() {
   while (taken.empty()) {
     if (ended()) return {};
     const std::int64_t tiles = std::int64_t(film_->done.size());
-    const int most = world_.plain ? 1 : chunks_at_once(tiles, threads_);
+    const int most = !world_.compiled.executable() ? 1 : chunks_at_once(tiles, threads_);
     while (next_chunk_ < round_end_ && int(taken.size()) < most) {
       const std::int64_t number = next_chunk_++;
       ++in_flight_;
