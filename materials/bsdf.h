@@ -118,6 +118,19 @@ concept CanBeSmooth = requires(const M& m) {
   m.evaluate({}, {}, Mode{});
 };
 
+/// How much of a coat's factor for Lambert lobes (materials/combine.h) the model gets, the rest
+/// being the factor for others: all for a Lambert lobe. One that is nearly that gains by the first
+/// factor where it loses by the other; a mean of the two, like both of them, is symmetric.
+template <class R, class M>
+inline R lambert_share(const M& model) {
+  if constexpr (std::is_same_v<M, Matte<R>> || std::is_same_v<M, Translucent<R>>)
+    return 1;
+  else if constexpr (requires { model.lambert_share(); })
+    return model.lambert_share();
+  else
+    return 0;
+}
+
 template <class M>
 inline bool is_specular(const M& model) {
   if constexpr (!CanBeSmooth<M>)
@@ -246,10 +259,10 @@ Lobes<R> Bsdf<R>::evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choi
       using Model = std::decay_t<decltype(model)>;
       if constexpr (detail::CanBeSmooth<Model>) {
         if (detail::is_specular(model)) return 0;
-        constexpr bool lambert =
-            std::is_same_v<Model, Matte<R>> || std::is_same_v<Model, Translucent<R>>;
+        const R share = detail::lambert_share<R>(model);
         const Lobes<R> l = model.evaluate(wo, wi, mode);
-        total.f += l.f * (lambert ? weights.of[i].lambert : weights.of[i].other);
+        if (share > 0) total.f += l.f * weights.of[i].lambert * share;
+        if (share < 1) total.f += l.f * weights.of[i].other * (1 - share);
         total.pdf += l.pdf * choice.probability.of[i];
       }
       return 0;

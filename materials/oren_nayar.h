@@ -77,6 +77,8 @@ struct RoughMatte {
 
   static constexpr bool specular() { return false; }
   Spectrum<R> estimate(Vec3<R>) const { return colour; }
+  /// See detail::lambert_share of materials/bsdf.h.
+  R lambert_share() const { return 1 - r / 4; }
 
   /// 1 - albedo of one bounce on white, over r a: c1 - G / pi, G = s (theta - s c + 2/3 (c (1 + s +
   /// s^2) / (1 + s) - 1)), which is free of divisions by the cosine.

@@ -72,6 +72,8 @@ inline std::vector<Case> smooth_cases() {
   put("mix", mix(matte(ramp(0.1, 0.9)), glossy(1, 20), ramp(0.2, 0.7)));
   put("coat", fresnel_mix(matte(0.8), glossy(1, 40), ramp(1.6, 1.4)));
   put("coat of facets", fresnel_mix(matte(0.8), microfacet(1, 0.4), ramp(1.6, 1.4)));
+  put("coat over rough matte",
+      fresnel_mix(tinted(Lobe::RoughMatte, 0.8, {0.5}), glossy(1, 9), 1.5));
   put("coat of mirror", fresnel_mix(matte(0.8), mirror(1), 1.5));
   put("nested", add(scale(fresnel_mix(mix(matte(0.5), translucent(ramp(0.1, 0.5)), 0.4),
                                       microfacet(1, 0.4), 1.8),

@@ -89,7 +89,7 @@ namespace {
 double largest_kink(const Made<double>& m, double step) {
   stats::Random random(11);
   double largest = 0, sum = 0;
-  const int count = kSanitized ? 4'000 : 25'000;
+  const int count = 25'000;  // a kink that is not aimed at is met by a few
   int used = 0;
   while (used < count) {
     const Vec3d wo = square_to_sphere(random.next(), random.next());
@@ -120,10 +120,10 @@ double largest_kink(const Made<double>& m, double step) {
 TEST_CASE("smooth everywhere: which models are") {
   for (const Demand& d : demands()) {
     const Made<double> m(d.material);
-    // The second difference over the step: of a smooth function a hundredth of the step gives a
-    // hundredth; of one with a kink as much, as often as it is met.
-    const double wide = largest_kink(m, 1e-3), fine = largest_kink(m, 1e-5);
-    const bool smooth = fine < 0.1 * wide || fine < 1e-6;
+    // The second difference over the step: of a smooth function a tenth of the step gives a tenth;
+    // of one with a kink as much, as often as it is met.
+    const double wide = largest_kink(m, 1e-3), fine = largest_kink(m, 1e-4);
+    const bool smooth = fine < 0.3 * wide || fine < 1e-6;
     CHECK_MESSAGE(smooth == d.smooth, d.name, ": ", wide, " and ", fine);
   }
 }
