@@ -2,9 +2,9 @@
 #pragma once
 
 /// \file
-/// Images and tables for scripts, wherever they are linked. What reads images is a module of its own: it is
-/// loaded when the first image is named, for loading OpenImageIO takes longer than linking a
-/// script.
+/// Images and tables for scripts, wherever they are linked. What reads images is a module of its
+/// own: it is loaded when the first image is named, for loading OpenImageIO takes longer than
+/// linking a script.
 
 #include <memory>
 

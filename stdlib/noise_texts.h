@@ -76,7 +76,7 @@
   "[" MMS_D(name, "1, 1, 0, 0") ", " MMS_D(name, "0, 2, 0, 0") ", " MMS_D(name, "0, 1, 1, 0") ", " MMS_D(name, "0, 1, 0, 1") "]" ", " \
   "[" MMS_D(name, "1, 0, 1, 0") ", " MMS_D(name, "0, 1, 1, 0") ", " MMS_D(name, "0, 0, 2, 0") ", " MMS_D(name, "0, 0, 1, 1") "]" ", " \
   "[" MMS_D(name, "1, 0, 0, 1") ", " MMS_D(name, "0, 1, 0, 1") ", " MMS_D(name, "0, 0, 1, 1") ", " MMS_D(name, "0, 0, 0, 2") "]" "]"
-#define MMS_HIGHER4(name)                                                                          \
+#define MMS_HIGHER4(name) \
   "[" MMS_D(name, "max(i, 0) + 1, j, k, l") ", " MMS_D(name, "i, max(j, 0) + 1, k, l") ", " MMS_D( \
       name,                                                                                        \
       "i, j, max(k, 0) + 1, l") ", " MMS_D(name,                                                   \

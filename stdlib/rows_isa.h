@@ -30,7 +30,7 @@ constexpr auto joined(const vm::Builtin (&... parts)[N]) {
   return all;
 }
 
-inline constexpr auto kRows =
-    joined(kElementaryRows, kComplexRows, kNoiseRows, kSeededRows, kCellsRows, kWorleyRows, kPhysicsRows);
+inline constexpr auto kRows = joined(kElementaryRows, kComplexRows, kNoiseRows, kSeededRows,
+                                     kCellsRows, kWorleyRows, kPhysicsRows);
 
 }  // namespace mms::stdlib::MMS_ISA

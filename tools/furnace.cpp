@@ -61,9 +61,9 @@ Exit furnace(const FurnaceOptions& options) {
     const auto source = api::material_source(d, vm::Output::Material);
     if (!source || source->layout->nodes.empty() || !is_of_interest(d, compiled->program)) continue;
     const materials::Layout layout(*source->layout);
-    all.push_back(
-        {d.form, d.name,
-         materials::furnace(layout, api::material_numbers(compiled->program, *source, *in), samples)});
+    all.push_back({d.form, d.name,
+                   materials::furnace(
+                       layout, api::material_numbers(compiled->program, *source, *in), samples)});
   }
   if (all.empty())
     return fail(Exit::Script,

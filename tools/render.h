@@ -22,8 +22,8 @@ struct RenderRequest : PictureOptions {
   double seconds = 0, error_limit = 0;  ///< 0 is none
   std::uint64_t seed_number = 0;
   std::string scene = "sphere", surface, volume, sweep, turntable;
-  int frames = 0;   ///< from `turntable`; 0 is none
-  double turn = 0;  ///< of the test object, radians
+  int frames = 0;                  ///< from `turntable`; 0 is none
+  double turn = 0;                 ///< of the test object, radians
   double checkpoint_seconds = 60;  ///< 0 is never
   bool resume = false, report = false, watch = false;
 };

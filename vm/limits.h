@@ -35,8 +35,8 @@ inline constexpr int kInlineDepth = 200;
 /// Expressions inside one another while linking, through the functions that are inlined.
 inline constexpr int kExpressionDepth = 1500;
 
-/// Derivatives of derivatives of a function that is not inlined: each order has twice the parameters
-/// and several times the operations of the one before.
+/// Derivatives of derivatives of a function that is not inlined: each order has twice the
+/// parameters and several times the operations of the one before.
 inline constexpr int kDerivativeOrder = 6;
 
 /// Values on the stack and locals of one function.

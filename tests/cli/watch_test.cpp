@@ -11,7 +11,8 @@ using mms::cli::Outcome;
 
 #if MMS_RENDERER
 
-TEST_CASE("a watched picture follows the script, its imports, images and the scene, past mistakes") {
+TEST_CASE(
+    "a watched picture follows the script, its imports, images and the scene, past mistakes") {
   const Folder folder;
   folder.write("s.mms", "surface \"s\" bsdf = matte(0.5); end\n");
   folder.write("scene.json",

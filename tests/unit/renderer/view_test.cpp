@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 /// Figure 6.3: a colour, each patch 1.25 times as bright as the one before.
 constexpr int kPatches = 24;
 Film patches(double kelvin) {
-  const Vec3d colour = materials::xyz_of_spectrum(
-      [&](double nm) { return materials::planck(nm, kelvin); });
+  const Vec3d colour =
+      materials::xyz_of_spectrum([&](double nm) { return materials::planck(nm, kelvin); });
   Film film{kPatches, 1, {}, {}};
   double y = 0.05;
   for (int i = 0; i < kPatches; ++i, y *= 1.25) {
