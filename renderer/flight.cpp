@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "renderer/batches.h"
 #include "renderer/vertex.h"
 
 namespace mms::renderer {
@@ -135,16 +136,10 @@ void Flights::advance_all(std::vector<Flight>& flights, const std::vector<PathVi
                         : world_.scene.objects[f.medium].volume;
     requests_.push_back({i, need, key});
   }
-  std::stable_sort(requests_.begin(), requests_.end(), [](const Request& a, const Request& b) {
-    return std::pair(a.need, a.key) < std::pair(b.need, b.key);
-  });
-  for (std::size_t first = 0, last = 0; first < requests_.size(); first = last) {
-    while (last < requests_.size() && last - first < std::size_t(scripts_.width()) &&
-           requests_[last].need == requests_[first].need &&
-           requests_[last].key == requests_[first].key)
-      ++last;
-    answer(flights, paths, std::span(requests_).subspan(first, last - first));
-  }
+  const auto key = [](const Request& r) { return std::pair(r.need, r.key); };
+  std::ranges::stable_sort(requests_, {}, key);
+  for_each_batch(std::span(requests_), scripts_.width(), key,
+                 [&](std::span<const Request> batch) { answer(flights, paths, batch); });
 }
 
 /// Finds what lies on the ray beyond distance `from`.

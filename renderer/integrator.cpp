@@ -7,6 +7,7 @@
 
 #include "materials/bsdf.h"
 #include "materials/phase.h"
+#include "renderer/batches.h"
 #include "renderer/vertex.h"
 
 namespace mms::renderer {
@@ -106,12 +107,9 @@ void Integrator::trace(std::span<const PixelSample> samples, std::span<FilmSampl
     connections_.clear();
     gather();
     if (world_.nested) ask_surroundings();
-    for (std::size_t first = 0, last = 0; first < vertices_.size(); first = last) {
-      while (last < vertices_.size() && last - first < std::size_t(scripts_.width()) &&
-             vertices_[last].kind == vertices_[first].kind)
-        ++last;
-      shade(std::span(vertices_).subspan(first, last - first));
-    }
+    for_each_batch(
+        std::span(vertices_), scripts_.width(), [](const Vertex& v) { return v.kind; },
+        [&](std::span<const Vertex> group) { shade(group); });
     ask_emitters();
     send_shadow_rays();
     std::swap(now_, next_);
@@ -161,8 +159,7 @@ void Integrator::gather() {
       p.radiance += weight * world_.lights.environment(d, p.cluster);
     }
   }
-  std::stable_sort(arrived_.begin(), arrived_.end(),
-                   [](const Arrived& a, const Arrived& b) { return a.kind < b.kind; });
+  std::ranges::stable_sort(arrived_, {}, &Arrived::kind);
   for (const auto& [kind, f] : arrived_) {
     const Hit* hit = f->end == End::Surface ? &f->hit : nullptr;
     Path& p = paths_[f->path];

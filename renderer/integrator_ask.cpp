@@ -3,6 +3,7 @@
 // what lights radiate.
 #include <algorithm>
 
+#include "renderer/batches.h"
 #include "renderer/integrator.h"
 #include "renderer/vertex.h"
 
@@ -22,25 +23,21 @@ void Integrator::ask_surroundings() {
     if (s.script && world_.compiled.of(s.script).index) nested_.push_back({&v, around});
   }
   const auto surface = [&](const Nested& n) { return world_.scene.objects[n.around].surface; };
-  std::stable_sort(nested_.begin(), nested_.end(),
-                   [&](const Nested& a, const Nested& b) { return surface(a) < surface(b); });
-  for (std::size_t first = 0, last = 0; first < nested_.size(); first = last) {
+  std::ranges::stable_sort(nested_, {}, surface);
+  for_each_batch(std::span(nested_), scripts_.width(), surface, [&](std::span<const Nested> batch) {
     outside_points_.clear();
-    while (last < nested_.size() && last - first < std::size_t(scripts_.width()) &&
-           surface(nested_[last]) == surface(nested_[first])) {
-      const Nested& n = nested_[last++];
+    for (const Nested& n : batch) {
       outside_points_.push_back(n.vertex->point);
       outside_points_.back().object = &world_.scene.objects[n.around];
     }
     lanes_.clear();
     for (const ScriptPoint& p : outside_points_) lanes_.push_back(&p);
-    const vm::Descriptor& d = *world_.scene.surfaces[surface(nested_[first])].script;
+    const vm::Descriptor& d = *world_.scene.surfaces[surface(batch[0])].script;
     scripts_.run(d, EntryKind::Shade, lanes_);
-    for (std::size_t i = first; i < last; ++i)
-      if (!scripts_.given_up(int(i - first)))
-        nested_[i].vertex->outside =
-            scripts_.spectrum(*world_.compiled.of(&d).index, int(i - first));
-  }
+    for (int i = 0; i < int(batch.size()); ++i)
+      if (!scripts_.given_up(i))
+        batch[i].vertex->outside = scripts_.spectrum(*world_.compiled.of(&d).index, i);
+  });
 }
 
 /// Asks scripted emitters what they radiate towards the vertices that drew them.
@@ -52,14 +49,10 @@ void Integrator::ask_emitters() {
   const auto surface_index = [&](const Connection& c) {
     return world_.scene.objects[c.light.object].surface;
   };
-  std::stable_sort(asked.begin(), asked.end(), [&](const Connection& a, const Connection& b) {
-    return surface_index(a) < surface_index(b);
-  });
-  for (std::size_t first = 0, last = 0; first < asked.size(); first = last) {
+  std::ranges::stable_sort(asked, {}, surface_index);
+  const auto ask = [&](std::span<const Connection> batch) {
     light_points_.clear();
-    while (last < asked.size() && last - first < std::size_t(scripts_.width()) &&
-           surface_index(asked[last]) == surface_index(asked[first])) {
-      const Connection& c = asked[last++];
+    for (const Connection& c : batch) {
       ScriptPoint q;
       q.object = &world_.scene.objects[c.light.object];
       q.cluster = &paths_[shadows_[c.flight].path].cluster;
@@ -70,18 +63,18 @@ void Integrator::ask_emitters() {
     }
     lanes_.clear();
     for (const ScriptPoint& q : light_points_) lanes_.push_back(&q);
-    const vm::Descriptor& d = *world_.scene.surfaces[surface_index(asked[first])].script;
+    const vm::Descriptor& d = *world_.scene.surfaces[surface_index(batch[0])].script;
     scripts_.run(d, EntryKind::Emit, lanes_);
-    for (std::size_t i = first; i < last; ++i) {
-      const int lane = int(i - first);
+    for (int lane = 0; lane < int(batch.size()); ++lane) {
       const Spectrumf emitted =
           scripts_.given_up(lane)
               ? Spectrumf(0.0f)
               : scripted_emission(world_.compiled, scripts_, d, EntryKind::Emit, lane,
                                   light_points_[lane].surface, light_points_[lane].view, scratch_);
-      shadows_[asked[i].flight].carried.beta *= emitted;
+      shadows_[batch[lane].flight].carried.beta *= emitted;
     }
-  }
+  };
+  for_each_batch(std::span(asked), scripts_.width(), surface_index, ask);
 }
 
 }  // namespace mms::renderer

@@ -9,6 +9,7 @@
 #include "materials/bsdf.h"
 #include "materials/colour.h"
 #include "materials/phase.h"
+#include "renderer/batches.h"
 #include "renderer/flight.h"
 #include "renderer/vertex.h"
 #include "renderer/world.h"
@@ -101,21 +102,16 @@ class Gaze {
       l.distance = f.t;
     }
     const auto kind = [&](const Vertex& v) { return looks_[v.from->path].kind; };
-    std::stable_sort(vertices.begin(), vertices.end(),
-                     [&](const Vertex& a, const Vertex& b) { return kind(a) < kind(b); });
-    for (std::size_t first = 0, last = 0; first < vertices.size(); first = last) {
-      while (last < vertices.size() && last - first < std::size_t(scripts_.width()) &&
-             kind(vertices[last]) == kind(vertices[first]))
-        ++last;
-      const int k = kind(vertices[first]);
+    std::ranges::stable_sort(vertices, {}, kind);
+    for_each_batch(std::span(vertices), scripts_.width(), kind, [&](std::span<const Vertex> group) {
+      const int k = kind(group[0]);
       const vm::Descriptor* script = k < surfaces() ? world_.scene.surfaces[k].script
                                                     : world_.scene.volumes[k - surfaces()].script;
-      const std::span group = std::span(vertices).subspan(first, last - first);
       if (script)
         ask(*script, k >= surfaces(), group);
       else
         for (const Vertex& v : group) look_up(world_.scene.surfaces[k].fixed, v);
-    }
+    });
   }
 
   /// A surface that the scene describes: matte.
