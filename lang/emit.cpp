@@ -318,10 +318,12 @@ std::uint32_t Emitter::emit(FunctionId f, std::span<const Ref> results, std::str
 }
 
 std::uint32_t Emitter::constant(std::uint32_t k) {
-  const auto [it, is_new] =
-      constants_.try_emplace(k, static_cast<std::uint32_t>(program_.constants.size()));
-  if (is_new) program_.constants.push_back(module_.constants[k]);
-  return it->second;
+  if (constants_.size() <= k) constants_.resize(module_.constants.size());
+  if (!constants_[k]) {
+    constants_[k] = static_cast<std::uint32_t>(program_.constants.size());
+    program_.constants.push_back(module_.constants[k]);
+  }
+  return *constants_[k];
 }
 
 std::uint32_t Emitter::callee(FunctionId f) {

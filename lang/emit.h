@@ -6,8 +6,10 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "lang/ir.h"
 
@@ -29,7 +31,7 @@ class Emitter {
   const Module& module_;
   vm::Program& program_;
   std::map<FunctionId, std::uint32_t> emitted_;
-  std::map<std::uint32_t, std::uint32_t> constants_;
+  std::vector<std::optional<std::uint32_t>> constants_;  ///< by their number in the module
   friend class FunctionEmitter;
 };
 
