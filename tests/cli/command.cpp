@@ -28,6 +28,10 @@ int exit_code(int status) {
 
 }  // namespace
 
+std::string project_text(const std::string& path) {
+  return slurp(std::string(MMS_SOURCE_DIR) + "/" + path);
+}
+
 Folder::Folder() {
   std::string name = (fs::temp_directory_path() / "mms-cli-XXXXXX").string();
   REQUIRE(mkdtemp(name.data()) != nullptr);

@@ -12,6 +12,9 @@ inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+/// A file of the project, by its path from the top; empty where there is none.
+std::string project_text(const std::string& path);
+
 /// What a run left.
 struct Outcome {
   int exit = -1;  ///< exit code; 128 and the signal's number if a signal ended it

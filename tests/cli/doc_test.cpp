@@ -2,7 +2,6 @@
 // mms doc: manuals of scripts, and pages as HTML.
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
@@ -123,12 +122,8 @@ TEST_CASE(
 TEST_CASE("every noise and pattern of the library has its picture") {
   namespace fs = std::filesystem;
   const fs::path root = MMS_SOURCE_DIR;
-  const auto text_of = [&](const char* path) {
-    std::ifstream in(root / path);
-    return std::string(std::istreambuf_iterator<char>(in), {});
-  };
-  const std::string script = text_of("examples/figures/library.mms");
-  const std::string page = text_of("docs/stdlib.md");
+  const std::string script = mms::cli::project_text("examples/figures/library.mms");
+  const std::string page = mms::cli::project_text("docs/stdlib.md");
   std::size_t count = 0;
   std::uintmax_t bytes = 0;
   for (std::size_t at = 0; (at = script.find("\nsurface ", at)) != script.npos; ++at, ++count) {
@@ -145,7 +140,7 @@ TEST_CASE("every noise and pattern of the library has its picture") {
   // What is no picture of its own: how others are filtered, moved, laid out.
   const std::set<std::string> helpers = {"fade", "widest", "coverage", "turn"};
   for (const char* module : {"noise", "patterns"}) {
-    std::istringstream source(text_of((std::string("stdlib/") + module + ".mms").c_str()));
+    std::istringstream source(mms::cli::project_text(std::string("stdlib/") + module + ".mms"));
     for (std::string line; std::getline(source, line);) {
       const std::size_t call = line.find('(');
       if (!line.starts_with("real") || call == line.npos) continue;

@@ -2,8 +2,6 @@
 // docs/materials.md has an entry, a picture and a script for every model of materials/lobes.def;
 // and what mms furnace says of phase functions, in numbers and as a plot.
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 
@@ -15,23 +13,19 @@
 using mms::cli::contains;
 using mms::cli::Folder;
 using mms::cli::Outcome;
+using mms::cli::project_text;
 using nlohmann::json;
 
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
-  std::ifstream in(fs::path(MMS_SOURCE_DIR) / path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 }  // namespace
 
 TEST_CASE("every model is in the figures, on the page and in a picture") {
-  const std::string script = text_of("examples/figures/materials.mms");
-  const std::string page = text_of("docs/materials.md");
-  std::istringstream table(text_of("materials/lobes.def"));
+  const std::string script = project_text("examples/figures/materials.mms");
+  const std::string page = project_text("docs/materials.md");
+  std::istringstream table(project_text("materials/lobes.def"));
   const std::string mark = "\"material ";
   std::uintmax_t bytes = 0;
   int models = 0;

@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the README shows works.
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include <doctest/doctest.h>
 
 #include "tests/cli/command.h"
 
-namespace {
-
-std::string readme() {
-  std::ifstream in(MMS_SOURCE_DIR "/README.md", std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-}  // namespace
-
 TEST_CASE("the script of the README has no errors and no warnings") {
-  const std::string text = readme();
+  const std::string text = mms::cli::project_text("README.md");
   const std::string open = "```mms\n";
   const std::size_t begin = text.find(open);
   REQUIRE(begin != std::string::npos);
@@ -33,7 +23,7 @@ TEST_CASE("the script of the README has no errors and no warnings") {
 }
 
 TEST_CASE("every page that the README links to is there") {
-  const std::string text = readme();
+  const std::string text = mms::cli::project_text("README.md");
   int links = 0;
   for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
     const std::size_t end = text.find(')', at);
@@ -50,8 +40,7 @@ TEST_CASE("every page that the README links to is there") {
 TEST_CASE("the scripts of the tutorial and the README are laid out, and their examples hold") {
   int examples = 0;
   for (const std::string name : {"README.md", "docs/language.md"}) {
-    std::ifstream in(MMS_SOURCE_DIR "/" + name, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(in), {}};
+    std::string text = mms::cli::project_text(name);
     text = text.substr(0, text.find("## Reference\n"));
     const std::string open = "```mms\n";
     for (std::size_t at = text.find(open); at != text.npos; at = text.find(open, at + 1)) {

@@ -99,6 +99,17 @@ struct Counts {
       negative += x < 0;
     }
   }
+  /// A sample of a surface or of a volume, if there is one.
+  template <class Sample>
+  void add_sample(const std::optional<Sample>& s) {
+    if (!s) {
+      ++empty;
+      return;
+    }
+    add(s->f);
+    add(s->pdf);
+    nan += !(std::abs(length(s->wi) - 1) < 1e-4f);
+  }
   bool good() const { return nan + infinite + negative == 0; }
 };
 
@@ -138,15 +149,8 @@ TEST_CASE("random calls of every model are finite and non-negative") {
         counts.add(l.f);
         counts.add(l.pdf);
         const float u = random.next_float(), u1 = random.next_float(), u2 = random.next_float();
-        const auto s = bsdf.sample(wo, u, u1, u2, mode);
         counts.calls += 2;
-        if (!s) {
-          ++counts.empty;
-        } else {
-          counts.add(s->f);
-          counts.add(s->pdf);
-          counts.nan += !(std::abs(length(s->wi) - 1) < 1e-4f);
-        }
+        counts.add_sample(bsdf.sample(wo, u, u1, u2, mode));
         if (!counts.good() && first.empty()) {
           for (float x : p) first += std::to_string(x) + " ";
           first += "; wo " + std::to_string(wo.x) + " " + std::to_string(wo.y) + " " +
@@ -183,14 +187,7 @@ TEST_CASE("random calls of every phase function and emission shape are finite an
           counts.add(function.pdf(wo, wi));
           counts.add(materials::volume_emission_shape(layout, p.data(), wi));
           const float u = random.next_float(), u1 = random.next_float();
-          const auto s = function.sample(wo, u, u1, random.next_float());
-          if (!s) {
-            ++counts.empty;
-          } else {
-            counts.add(s->f);
-            counts.add(s->pdf);
-            counts.nan += !(std::abs(length(s->wi) - 1) < 1e-4f);
-          }
+          counts.add_sample(function.sample(wo, u, u1, random.next_float()));
         }
         if (!counts.good() && first.empty())
           for (float x : p) first += std::to_string(x) + " ";
