@@ -52,6 +52,7 @@ class Weights {
       case Lobe::Mix:
       case Lobe::FresnelMix:
       case Lobe::Coat:
+      case Lobe::Layer:
         return std::max(at(node.children[0]), at(node.children[1]));
       case Lobe::Scale:
         return most(node, 0) * at(node.children[0]);

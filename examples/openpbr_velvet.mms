@@ -10,7 +10,7 @@ surface velvet
         specular_roughness = 0.8,
         fuzz_weight = 1.0,
         fuzz_color = mix(colour, rgb(0.9, 0.7, 1.0), 0.8),
-        fuzz_roughness = 0.2 + 0.15 * perlin(p)
+        fuzz_roughness = 0.4 + 0.15 * perlin(p)
     );
     height = 0.001 * fbm(p, 3);
 end

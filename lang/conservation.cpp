@@ -43,6 +43,7 @@ MaterialPtr sole_part(const Module& module, const MaterialTree& m) {
   if (row == "material mix") return is(0, 0) ? m.children[0] : is(0, 1) ? m.children[1] : nullptr;
   if (row == "material scale") return is(0, 1) ? m.children[0] : nullptr;
   if (row == "material fresnel_mix") return is(0, 1) ? m.children[0] : nullptr;
+  if (row == "material layer") return is(0, 0) ? m.children[1] : nullptr;
   if (row == "material coat") return is(2, 1) && (is(0, 0) || is(1, 0)) ? m.children[1] : nullptr;
   return nullptr;
 }

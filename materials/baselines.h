@@ -107,36 +107,4 @@ struct AshikhminShirley {
   }
 };
 
-/// `sheen`: cloth's fibres, which stand up and are seen from the side. f = colour D(h) / (4 (o + i
-/// - o i)), D = (2 + 1 / r) / (2 pi) sin^(1 / r), o = |wo.z|, i = |wi.z| (Estevez and Kulla 2017,
-/// with the visibility of Neubelt and Pettineo 2013). Reciprocal. White of roughness
-/// 0.25 reaches albedo 0.95 at grazing incidence, below that it would exceed 1: the limit.
-template <class R>
-struct Sheen {
-  Spectrum<R> colour;
-  R exponent;
-
-  explicit Sheen(const R* p)
-      : colour(weight_at(p)), exponent(1 / limited(p[kWavelengths], R(0.25), R(1))) {}
-
-  static constexpr bool specular() { return false; }
-  Spectrum<R> estimate(Vec3<R>) const { return colour * R(0.2); }
-
-  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode) const {
-    if (!same_side(wo, wi)) return {};
-    const Vec3<R> u = to_upper(wo, wo), v = to_upper(wi, wo), h = half_vector(u, v);
-    Lobes<R> out{Spectrum<R>(), Spectrum<R>(1 / (2 * kPi<R>))};
-    if (!(h.z > 0)) return out;
-    const R s2 = std::min(R(1), h.x * h.x + h.y * h.y);
-    const R d = (2 + exponent) / (2 * kPi<R>)*std::pow(s2, exponent / 2);
-    out.f = colour * (d / (4 * (u.z + v.z - u.z * v.z)));
-    return out;
-  }
-
-  bool sample(Vec3<R> wo, R, R u1, R u2, Vec3<R>& wi) const {
-    wi = to_upper(square_to_sphere(u1 / 2, u2), wo);
-    return wi.z != 0;
-  }
-};
-
 }  // namespace mms::materials

@@ -24,7 +24,8 @@
 ///   where f is 0. It is part of the distribution: count the path as ended, do not draw again.
 /// * Mode. Radiance: `wi` is where light comes from, refraction scales f by (n_o/n_i)^2 (radiance
 ///   is compressed). Importance: `wi` is where light goes on to (light and photon paths), no scale.
-///   f_Importance(wo, wi) = f_Radiance(wi, wo). Nothing else depends on the mode.
+///   f_Importance(wo, wi) = f_Radiance(wi, wo). Nothing else depends on the mode, but that `sheen`
+///   and what it covers by `layer` are not reciprocal on one side either.
 /// * Numbers out of range (negative or NaN colour, roughness, ...) are clamped into range.
 
 #include <optional>
@@ -43,6 +44,7 @@
 #include "materials/oren_nayar.h"
 #include "materials/phong_glass.h"
 #include "materials/radial.h"
+#include "materials/sheen.h"
 #include "materials/slab.h"
 #include "materials/specular.h"
 
@@ -74,6 +76,8 @@ class Bsdf {
 
   /// Draws `wi` for the hero from three numbers in [0, 1).
   std::optional<BsdfSample<R>> sample(Vec3<R> wo, R u_lobe, R u1, R u2, Mode mode) const;
+
+  bool transmits() const { return layout_->transmits(); }
 
   /// With these very numbers every lobe is a delta: `eval` is black, connecting to a light is vain.
   bool specular_only() const;
@@ -183,6 +187,8 @@ Result Bsdf<R>::with_model(int i, Result none, Visit visit) const {
       return visit(BeckmannMirror<R>(p));
     case Lobe::Conductor:
       return visit(Conductor<R>(p));
+    case Lobe::ColouredMetal:
+      return visit(ColouredMetal<R>(p));
     case Lobe::Dielectric:
       return visit(Dielectric<R>(p));
     case Lobe::PhongGlass:
@@ -206,6 +212,7 @@ Result Bsdf<R>::with_model(int i, Result none, Visit visit) const {
     case Lobe::Coat:
     case Lobe::Scale:
     case Lobe::Add:
+    case Lobe::Layer:
       break;
   }
   return none;
@@ -253,7 +260,7 @@ Lobes<R> Bsdf<R>::evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choi
   Lobes<R> total;
   if (node_count() == 0) return total;
   PerNode<NodeWeight<R>> weights;
-  weigh(*layout_, params_, std::abs(wo.z), std::abs(wi.z), weights);
+  weigh(*layout_, params_, std::abs(wo.z), std::abs(wi.z), mode, weights);
   for (int i = 0; i < node_count(); ++i) {
     with_model(i, 0, [&](const auto& model) {
       using Model = std::decay_t<decltype(model)>;
@@ -337,7 +344,7 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u,
   if (in_surface(s.wi)) return {};
   // Sum the deltas of all lobes that fall on this very direction.
   PerNode<NodeWeight<R>> weights;
-  weigh(*layout_, params_, std::abs(wo.z), cos_i, weights);
+  weigh(*layout_, params_, std::abs(wo.z), cos_i, mode, weights);
   for (int i = 0; i < node_count(); ++i) {
     const SpecularTerms<R> t = terms_of(i);
     for (int j = 0; j < kWavelengths; ++j) {

@@ -28,13 +28,25 @@
 /// `fresnel_mix`, only the one nearest the Lambert lobe uses the product, for the same bound.
 /// `rough_matte` gets a share 1 - roughness / 4 of the product, the rest of the other factor: the
 /// largest that never gains (by quadrature over index and roughness); it loses up to 2%.
+///
+/// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
+/// white `top`:
+///   top: weight
+///   base: 1 - E(wo)             in radiance; of importance 1 - E(wi). For the Lambert lobes right
+///                               below it (1 - E)(1 - E') / (1 - mean E)
+/// so that a white base under a white top is 1 in every direction, whatever it is: of radiance
+/// always, so that nothing is seen brighter than what lights it; of importance only under the
+/// second factor, as the first is not symmetric. E is known of `sheen` (materials/sheen.h); of all
+/// else it is taken for the weight: a mixture.
 
 #include <array>
+#include <optional>
 
 #include "materials/facets.h"
 #include "materials/fresnel.h"
 #include "materials/layout.h"
 #include "materials/lobe.h"
+#include "materials/sheen.h"
 
 namespace mms::materials {
 
@@ -161,11 +173,30 @@ inline void dim_by_layer(const R* p, R cos_o, R cos_i, Base base) {
   }
 }
 
+/// What the `layer` of that node leaves to its base.
+template <class R>
+struct LayerLeaves {
+  R weight;
+  std::optional<SheenLayer<R>> fibres;  ///< none: all but the weight
+
+  LayerLeaves(const Layout& layout, const R* params, const Layout::Node& node)
+      : weight(limited(params[node.first_param], R(0), R(1))) {
+    const Layout::Node& top = layout.nodes()[node.children[0]];
+    if (top.lobe == Lobe::Sheen) fibres.emplace(params[top.first_param + kWavelengths]);
+  }
+
+  R along(R c) const { return 1 - weight * (fibres ? fibres->albedo(c) : R(1)); }
+  /// Of fibres.
+  R lambert(R cos_o, R cos_i) const {
+    return along(cos_o) * along(cos_i) / (1 - weight * fibres->mean_albedo());
+  }
+};
+
 }  // namespace detail
 
 /// Factors for the pair of directions, for every node.
 template <class R>
-inline void weigh(const Layout& layout, const R* params, R cos_o, R cos_i,
+inline void weigh(const Layout& layout, const R* params, R cos_o, R cos_i, Mode mode,
                   PerNode<NodeWeight<R>>& weights) {
   const auto nodes = layout.nodes();
   auto& w = weights.of;
@@ -192,6 +223,14 @@ inline void weigh(const Layout& layout, const R* params, R cos_o, R cos_i,
       case Lobe::Add:
         w[a] = w[b] = w[i];
         break;
+      case Lobe::Layer: {
+        const detail::LayerLeaves<R> left(layout, params, node);
+        w[a] = {w[i].other * left.weight, w[i].lambert * left.weight};
+        w[b] = {w[i].other * left.along(mode == Mode::Radiance ? cos_o : cos_i),
+                left.fibres ? w[i].other * left.lambert(cos_o, cos_i)
+                            : w[i].lambert * (1 - left.weight)};
+        break;
+      }
       case Lobe::FresnelMix:
         detail::weigh_fresnel_mix(p, detail::coat_lobe(layout, params, b), cos_o, cos_i, w[i], w[a],
                                   w[b]);
@@ -236,6 +275,12 @@ inline void weigh_for_choice(const Layout& layout, const R* params, R cos_o,
       case Lobe::Add:
         w[a] = w[b] = w[i];
         break;
+      case Lobe::Layer: {
+        const detail::LayerLeaves<R> left(layout, params, node);
+        w[a] = w[i] * left.weight;
+        w[b] = w[i] * left.along(cos_o);
+        break;
+      }
       case Lobe::FresnelMix: {
         Spectrum<R> reflected, transmitted;
         detail::choose_fresnel_mix(p, detail::coat_lobe(layout, params, b), cos_o, reflected,

@@ -3,7 +3,8 @@
 
 /// \file
 /// `conductor`: GGX facets of metal with the exact Fresnel reflectance; polished at low roughness.
-/// Light of several bounces has been reflected as often: it is more saturated.
+/// `coloured_metal`: the same of a reflectance that is stated by its colours. Light of several
+/// bounces has been reflected as often: it is more saturated.
 
 #include "materials/fresnel.h"
 #include "materials/microfacet.h"
@@ -23,6 +24,28 @@ struct ConductorFresnel {
     for (int j = 0; j < kWavelengths; ++j) {
       const bool repeated = j > 0 && n[j] == n[j - 1] && k[j] == k[j - 1];
       f[j] = repeated ? f[j - 1] : fresnel_conductor(c, non_negative(n[j]), non_negative(k[j]));
+    }
+    return f;
+  }
+};
+
+/// Schlick's curve from `facing` at the normal to 1 in the surface, dimmed around 82 degrees
+/// (cosine 1/7) by a multiple of c (1 - c)^6, so that it is `edge` times the curve there (Kutz,
+/// Hasan and Edmondson 2021, as OpenPBR has it). Where a black metal is dimmed below 0 it is 0.
+template <class R>
+struct ColouredFresnel {
+  static constexpr int kNumbers = 2 * kWavelengths;  ///< facing, edge
+  const R* p;
+
+  /// At the cosine of incidence `c`.
+  Spectrum<R> operator()(R c) const {
+    constexpr R kBend = R(1) / 7, u = 1 - kBend, u5 = u * u * u * u * u;
+    const R v = 1 - c, v5 = v * v * v * v * v;
+    Spectrum<R> f;
+    for (int j = 0; j < kWavelengths; ++j) {
+      const R facing = limited(p[j], R(0), R(1)), edge = limited(p[kWavelengths + j], R(0), R(1));
+      const R dip = (facing + (1 - facing) * u5) * (1 - edge) / (kBend * u5 * u);
+      f[j] = std::max(R(0), facing + (1 - facing) * v5 - dip * c * v5 * v);
     }
     return f;
   }
@@ -68,5 +91,7 @@ struct RoughMetal {
 
 template <class R>
 using Conductor = RoughMetal<R, ConductorFresnel>;
+template <class R>
+using ColouredMetal = RoughMetal<R, ColouredFresnel>;
 
 }  // namespace mms::materials

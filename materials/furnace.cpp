@@ -47,9 +47,12 @@ struct Mean {
   double mean = 0, variance = 0;
 };
 
-/// The weight of the sample that `u` draws; 0 where there is none.
+/// The weight of the sample that `u` draws; 0 where there is none. In a furnace the side of the
+/// larger index is brighter, which radiance would have to be told; of one side alone it is what is
+/// seen, also of what is not reciprocal.
 double weight_of(const Bsdf<double>& bsdf, Vec3d wo, Vec3d u) {
-  const auto s = bsdf.sample(wo, u.x, u.y, u.z, Mode::Importance);
+  const Mode mode = bsdf.transmits() ? Mode::Importance : Mode::Radiance;
+  const auto s = bsdf.sample(wo, u.x, u.y, u.z, mode);
   return s ? s->f[0] * std::abs(s->wi.z) / s->pdf[0] : 0;
 }
 
@@ -84,8 +87,10 @@ double reciprocity(const Scattering& scattering) {
   for (int i = 1; i <= 2000; ++i) {
     const auto at = [i](int base) { return mirrored_digits(i, base); };
     const Vec3d a = square_to_sphere(at(2), at(3)), b = square_to_sphere(at(5), at(7));
+    // From one side to the other f itself is not symmetric, as an index may lie between.
+    const Mode back = same_side(a, b) ? Mode::Radiance : Mode::Importance;
     const auto ab = value_of(scattering, a, b, Mode::Radiance),
-               ba = value_of(scattering, b, a, Mode::Importance);
+               ba = value_of(scattering, b, a, back);
     for (int j = 0; j < kWavelengths; ++j) {
       const double larger = std::max(ab[j], ba[j]);
       if (larger > 0) worst = std::max(worst, std::abs(ab[j] - ba[j]) / larger);

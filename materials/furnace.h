@@ -27,7 +27,8 @@ struct FurnaceRow {
 
 struct FurnaceReport {
   std::vector<FurnaceRow> rows;  ///< of a phase function, the same everywhere, one
-  /// Largest |f(a, b) - f*(b, a)| over their larger, f* the adjoint, of 2000 pairs of directions.
+  /// Largest |f(a, b) - f(b, a)| over their larger, of 2000 pairs of directions; of pairs on two
+  /// sides f(b, a) is that of importance.
   double reciprocity = 0;
 };
 

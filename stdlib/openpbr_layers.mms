@@ -51,17 +51,6 @@ spectrum openpbr_darkening(spectrum colour, real coat_ior, amount)
     inside = 1.0 - (1.0 - (n - 1.0) / (4.08567 + 1.00071 * n)) / (n * n);
     return 1.0 + amount * ((1.0 - inside) / (1.0 - inside * clamp(colour, 0.0, 1.0)) - 1.0);
 
-/// `base` under fibres that stand up: a broad `glossy` which shows as Fresnel's factor grows, of an
-/// index from 1.1 (a thin rim) to 2.3 (dust all over) with `roughness`. Unlike a `mix` with `sheen` it
-/// keeps the energy of both.
-/// >>> openpbr_fuzz(matte(0.2), 1.0, 0.5, 1.0)
-material openpbr_fuzz(material base, spectrum colour, real roughness, weight)
-    r = saturate(roughness);
-    return fresnel_mix(
-        base, glossy(colour, 4.0 * (1.0 - r)),
-        openpbr_index(1.1 + 1.2 * r, saturate(weight))
-    );
-
 /// The index, by wavelength, that reflects at normal incidence what `ior` does under a film of
 /// `thickness` in metres and index `film_ior`, as far as `weight`.
 /// >>> openpbr_filmed(1.5, 0.0, 300nm, 1.4)
@@ -73,9 +62,9 @@ spectrum openpbr_filmed(real ior, weight, thickness, film_ior)
     root  = sqrt(clamp(mix(spectrum(fresnel(1.0, ior)), shown, saturate(weight)), 0.0, 0.999));
     return select spectrum(ior), if weight <= 0.0; (1.0 + root) / (1.0 - root) otherwise; end;
 
-/// OpenPBR's metal: `colour` is its reflectance at normal incidence, exactly; `edge` the tint at its
-/// rim, 1 for none. OpenPBR's Schlick curve through 82 degrees is here the exact one of a complex
-/// index (Gulbrandsen 2014). A film of `film_weight` and `thickness` in metres lies on it.
+/// OpenPBR's metal: `colour` is its reflectance at normal incidence, `edge` the tint at 82 degrees, 1
+/// for none. A film of `film_weight` and `thickness` in metres may lie on it, above the complex
+/// index of those two colours (Gulbrandsen 2014).
 /// >>> openpbr_metal(rgb(0.9, 0.6, 0.3), 1.0, 0.3, 0.0, 0.0, 0.0, 1.4)
 material openpbr_metal(
     spectrum colour, edge,
@@ -90,7 +79,7 @@ material openpbr_metal(
     rough = roughness * sqrt(sqrt(2.0 * broad / (1.0 + broad * broad)));
     along = min(anisotropy / 0.9, 1.0);
     return mix(
-        conductor(n, k, rough, along),
+        coloured_metal(colour, edge, rough, along),
         film_conductor(n, k, film_ior, thickness, $wavelength, rough, along),
         saturate(film_weight)
     );
@@ -181,8 +170,8 @@ openpbr_medium openpbr_inside(
 /// `openpbr_emission`, and opacity the output `scattering` of the surface.
 ///
 /// The specular part of an opaque base is a `glossy` (`openpbr_gloss`), coats and weights are
-/// indices (`openpbr_index`), fuzz is `openpbr_fuzz`; rough glass has no anisotropy, a film on it is
-/// smooth, and one on an opaque base has the colours of normal incidence everywhere.
+/// indices (`openpbr_index`), fuzz is a `layer` of `sheen`; rough glass has no anisotropy, a film on
+/// it is smooth, and one on an opaque base has the colours of normal incidence everywhere.
 /// >>> openpbr(base_color = 0.5, base_metalness = 1.0)
 /// >>> openpbr(base_color = rgb(0.6, 0.05, 0.02), coat_weight = 1.0)
 material openpbr(
@@ -264,4 +253,4 @@ material openpbr(
         absorption_from(coat_color, 1.0),
         openpbr_index(coat_ior, saturate(coat_weight))
     );
-    return openpbr_fuzz(shown, fuzz_color, fuzz_roughness, fuzz_weight);
+    return layer(sheen(fuzz_color, fuzz_roughness), shown, fuzz_weight);

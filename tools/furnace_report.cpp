@@ -177,7 +177,7 @@ sphere under the default light, and what `mms furnace` says of it.
 - **No sample.** A draw may give none: nothing scatters at the hero's wavelength, or the direction fell where f is 0. That is part of the
   distribution; the path ends, and nothing is drawn again.
 - **Radiance and importance.** A path from the camera asks for radiance, one from a light for importance. f of importance is f of radiance with its directions exchanged. They differ
-  by the square of the relative index where light is refracted, and nowhere else.
+  by the square of the relative index where light is refracted, and in `sheen` and what it covers by `layer`, which are fits and not reciprocal.
 - **Wavelengths.** Colours, indices and weights may differ at each wavelength; roughness, gloss and exponents do not. Directions depend on
   wavelength only where an index does.
 - **Phase functions** are per steradian without a cosine, over the whole sphere; each is its own density.
@@ -187,8 +187,8 @@ In the tables `albedo` is what comes back of light along a direction that many d
 most of eight wavelengths; `lost` is what is missing to 1 (negative: gained), `+-` the standard error were the samples independent, and `efficiency` what one sample is worth against one
 whose weight never varies: 1 / (1 + variance / mean^2).
 
-Rims are dark where a model loses energy, and nowhere else: `phong`, `spot`, `ward`, `ashikhmin_shirley`, and `sheen` in its middle. `glossy` and
-the facets keep it. Bright specks in and under rough glass are no model's: paths from the camera find the small lamp through two rough faces by chance.
+Rims are dark where a model loses energy, and nowhere else: `phong`, `spot`, `ward`, `ashikhmin_shirley`; `sheen` is dark in its middle, where light
+passes it. `glossy` and the facets keep it. Bright specks in and under rough glass are no model's: paths from the camera find the small lamp through two rough faces by chance.
 )";
 
 }  // namespace

@@ -25,6 +25,7 @@ surface sheen bsdf = sheen(1, 0.4); end
 surface microfacet bsdf = microfacet(1, 0.4); end
 surface beckmann bsdf = beckmann(1, 0.4); end
 surface conductor bsdf = conductor(gold_n($wavelength), gold_k($wavelength), 0.3); end
+surface coloured_metal bsdf = coloured_metal(rgb(0.9, 0.5, 0.2), rgb(0.9, 0.9, 0.4), 0.3); end
 surface dielectric bsdf = dielectric(1.5, 0.3); end
 
 surface phong_glass bsdf = phong_glass(1.5, 400.0); end
@@ -62,5 +63,6 @@ end
 surface mix bsdf = mix(matte(rgb(0.8, 0.2, 0.1)), mirror(), 0.3); end
 surface fresnel_mix bsdf = fresnel_mix(matte(rgb(0.8, 0.2, 0.1)), glossy(1, 400.0), 1.5); end
 surface coat bsdf = coat(glossy(1, 4000.0), matte(1), 1.0, rgb(0.05, 0.9, 0.6), 1.5); end
+surface layer bsdf = layer(sheen(rgb(0.9, 0.6, 0.5), 0.4), matte(rgb(0.4, 0.03, 0.05))); end
 surface scale bsdf = 0.5 * mirror(); end
 surface add bsdf = matte(rgb(0.1, 0.3, 0.5)) + glossy(0.4, 100.0); end

@@ -15,6 +15,9 @@ struct Case {
   std::string name;
   Material material;
   double lossless = 0;  ///< 1 for models whose albedo is exactly 1 by theory
+
+  /// All but fits to walks through fibres.
+  bool reciprocal() const { return !name.starts_with("sheen") && !name.starts_with("layer"); }
 };
 
 /// A different value at each wavelength, from `first` to `last`.
@@ -60,6 +63,7 @@ inline std::vector<Case> smooth_cases() {
   put("beckmann 1", beckmann(1, 1));
   put("beckmann anisotropic", beckmann(1, 0.5, 0.8));
   put("conductor", conductor(ramp(0.2, 1.3), ramp(3.4, 2.1), 0.3));
+  put("coloured_metal", coloured_metal(ramp(0.9, 0.3), ramp(0.2, 1), 0.4));
   put("dielectric 1.5, 0.3", dielectric(1.5, 0.3));
   put("dielectric dispersive, 0.5", dielectric(ramp(1.6, 1.4), 0.5));
   put("dielectric 1.1, 0.8", dielectric(1.1, 0.8));
@@ -69,6 +73,8 @@ inline std::vector<Case> smooth_cases() {
   put("phong_glass 0.6, 40, tinted", phong_glass(0.6, 40, 0.5, ramp(0.2, 0.8)));
   put("film_conductor", film_conductor(2.5, ramp(3, 4), 1.5, 400e-9, ramp(400e-9, 700e-9), 0.4));
   put("coat absorbing", coat(glossy(1, 40), matte(ramp(0.9, 0.5)), 0.5, ramp(0.1, 2), 1.5));
+  put("layer", layer(tinted(Lobe::Sheen, ramp(0.3, 0.9), {0.4}),
+                     fresnel_mix(matte(0.8), glossy(1, 40), 1.5), 0.7));
   put("mix", mix(matte(ramp(0.1, 0.9)), glossy(1, 20), ramp(0.2, 0.7)));
   put("coat", fresnel_mix(matte(0.8), glossy(1, 40), ramp(1.6, 1.4)));
   put("coat of facets", fresnel_mix(matte(0.8), microfacet(1, 0.4), ramp(1.6, 1.4)));

@@ -56,6 +56,7 @@ std::vector<Demand> demands() {
       {"microfacet, stretched", microfacet(1, 0.6, 0.8), true, true},
       {"beckmann", beckmann(1, 0.6), true, true},
       {"conductor", conductor(0.2, 3, 0.6), true, true},
+      {"coloured_metal", coloured_metal(0.7, 0.5, 0.6), true, true},
       {"film_conductor", film_conductor(2.5, 3, 1.5, 3e-7, 5e-7, 0.6), true, true},
       {"dielectric", dielectric(1.5, 0.6), true, false},
       {"phong_glass", phong_glass(1.5, 4), false, false}};

@@ -173,10 +173,7 @@ TEST_CASE("rough matte is lossless, and older models lose") {
                       {Lobe::GlossyProduct, {30, 0}, 1},
                       {Lobe::OrenNayar, {1.0}, 0},
                       {Lobe::Ward, {0.5, 0.5}, 0},
-                      {Lobe::AshikhminShirley, {30, 5}, 0},
-                      {Lobe::Sheen, {0.1}, 0},
-                      {Lobe::Sheen, {0.5}, 0},
-                      {Lobe::Sheen, {1.0}, 0}};
+                      {Lobe::AshikhminShirley, {30, 5}, 0}};
   for (const Row& row : rows) {
     const Material m = tinted(row.lobe, 1, row.numbers);
     if (row.normal > 0) CHECK(albedo(m, 0) == doctest::Approx(row.normal).epsilon(1e-4));
@@ -254,7 +251,10 @@ TEST_CASE("reciprocity") {
     for (int i = 0; i < 2000; ++i) {
       const Vec3d a = square_to_sphere(random.next(), random.next());
       const Vec3d b = square_to_sphere(random.next(), random.next());
-      const auto ab = bsdf.eval(a, b, Mode::Radiance), ba = bsdf.eval(b, a, Mode::Importance);
+      // On one side no index lies between: f itself is symmetric, without its adjoint.
+      const bool alike = c.reciprocal() && a.z * b.z > 0;
+      const auto ab = bsdf.eval(a, b, Mode::Radiance),
+                 ba = bsdf.eval(b, a, alike ? Mode::Radiance : Mode::Importance);
       for (int j = 0; j < kWavelengths; ++j) {
         const double scale = std::max(ab[j], ba[j]);
         if (scale == 0) continue;

@@ -38,6 +38,7 @@ std::vector<Material> extreme_materials() {
     m.push_back(microfacet(1, r, -1));
     for (double a : {0.0, 1.0, -1.0}) m.push_back(beckmann(1, r, a));
     m.push_back(conductor(ramp(0.05, 3), ramp(0, 8), r));
+    m.push_back(coloured_metal(ramp(0, 1), ramp(1, 0), r));
     for (double ior : {1 + 1e-7, 1 - 1e-7, 1.0, 1.001, 1.5, 4.0, 0.25, 1e-9, 1e20})
       m.push_back(dielectric(ior, r));
     m.push_back(dielectric(ramp(0.9, 1.1), r));
@@ -58,6 +59,7 @@ std::vector<Material> extreme_materials() {
       m.push_back(tinted(lobe, 1, {x}));
     for (Lobe lobe : {Lobe::Spot, Lobe::Ward, Lobe::AshikhminShirley, Lobe::GlossyProduct})
       m.push_back(tinted(lobe, 1, {x, x}));
+    m.push_back(layer(tinted(Lobe::Sheen, 1, {x}), mirror(1), x));
     m.push_back(phong_glass(x, x));
     m.push_back(slab(x, x, x));
     m.push_back(slab(1.5, 1e-3, x));

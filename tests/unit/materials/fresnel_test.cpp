@@ -7,6 +7,7 @@
 #include <complex>
 
 #include "base/quadrature.h"
+#include "materials/conductor.h"
 
 using namespace mms::materials;
 
@@ -116,4 +117,23 @@ TEST_CASE("diffuse reflectance of a dielectric is the integral of Fresnel's") {
   }
   // Published value for n = 1.5.
   CHECK(fresnel_dielectric_diffuse(1.5) == doctest::Approx(0.0918).epsilon(1e-3));
+}
+
+TEST_CASE(
+    "coloured metal reflects what its colours say, at the normal, the edge and in the surface") {
+  for (double facing : {0.0, 0.04, 0.5, 0.95, 1.0})
+    for (double edge : {0.0, 0.3, 1.0}) {
+      const double numbers[2 * mms::kWavelengths] = {facing, 1, 1, 1, 1, 1, 1, 1, edge};
+      const auto at = [&](double c) { return ColouredFresnel<double>{numbers}(c)[0]; };
+      const auto schlick = [&](double c) { return facing + (1 - facing) * std::pow(1 - c, 5); };
+      CHECK(at(1) == facing);
+      CHECK(at(0) == doctest::Approx(1).epsilon(1e-14));
+      CHECK(std::abs(at(1.0 / 7) - edge * schlick(1.0 / 7)) < 1e-15);
+      for (int i = 0; i <= 100; ++i) {
+        const double c = i / 100.0, f = at(c);
+        CHECK(f >= 0);
+        CHECK(f <= schlick(c) + 1e-15);
+        if (edge == 1) CHECK(f == doctest::Approx(schlick(c)).epsilon(1e-14));
+      }
+    }
 }

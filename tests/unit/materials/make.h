@@ -94,6 +94,9 @@ inline Material beckmann(Value c, double roughness, double anisotropy = 0) {
 inline Material conductor(Value n, Value k, double roughness = 0, double anisotropy = 0) {
   return node(Lobe::Conductor, {}, {n, k}, {roughness, anisotropy});
 }
+inline Material coloured_metal(Value facing, Value edge, double roughness) {
+  return node(Lobe::ColouredMetal, {}, {facing, edge}, {roughness, 0});
+}
 inline Material mirror(Value c) { return node(Lobe::Mirror, {}, {c}); }
 inline Material refraction(Value ior, Value c = 1) { return node(Lobe::Refraction, {}, {ior, c}); }
 /// An interface: index, a number, two tints.
@@ -125,6 +128,9 @@ inline Material fresnel_mix(Material base, Material coat, Value ior) {
   return node(Lobe::FresnelMix, {base, coat}, {ior});
 }
 inline Material scale(Material a, Value t) { return node(Lobe::Scale, {a}, {t}); }
+inline Material layer(Material top, Material base, double weight = 1) {
+  return node(Lobe::Layer, {top, base}, {}, {weight});
+}
 inline Material add(Material a, Material b) { return node(Lobe::Add, {a, b}, {}); }
 
 /// Direction `degrees` from +z (above 90: inside), at azimuth `phi` in radians.

@@ -72,9 +72,10 @@ Material any_material(Lobe lobe, stats::Random& random) {
   for (int i = 0; i < f.count; ++i) {
     if (f.kinds[i] == 'm') {
       const bool polished = random.next() < 0.3;
-      append(m, i > 0      ? matte(1)
-                : polished ? mirror(1)
-                           : glossy(1, std::pow(10, 6 * random.next() - 1)));
+      append(m, i > 0                 ? matte(1)
+                : polished            ? mirror(1)
+                : lobe == Lobe::Layer ? tinted(Lobe::Sheen, 1, {any_number(random)})
+                                      : glossy(1, std::pow(10, 6 * random.next() - 1)));
       n.children.push_back(std::uint32_t(m.tree.nodes.size() - 1));
       continue;
     }

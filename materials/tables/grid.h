@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// What the programs that make tables share: all cores, splines over grids, numbers as C++. Nothing
+/// here is used when rendering.
+
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "materials/spline.h"
+
+namespace mms::materials::tables {
+
+/// Calls body(i) for 0 <= i < n on all cores.
+inline void parallel(int n, const std::function<void(int)>& body) {
+  std::atomic<int> next = 0;
+  const auto work = [&] {
+    for (int i; (i = next++) < n;) body(i);
+  };
+  std::vector<std::thread> threads;
+  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& t : threads) t.join();
+}
+
+/// Coefficients of the spline through `values` (at least five) at uniform nodes; the third
+/// derivative is continuous at the second and the last but one ("not a knot").
+inline std::vector<double> fit(const std::vector<double>& values) {
+  const int n = int(values.size()), size = n + 2;
+  std::vector<std::vector<double>> a(size, std::vector<double>(size + 1));
+  for (int i = 0; i < n; ++i) {
+    a[i][i] = a[i][i + 2] = 1.0 / 6;
+    a[i][i + 1] = 4.0 / 6;
+    a[i][size] = values[i];
+  }
+  constexpr double fourth[] = {1, -4, 6, -4, 1};
+  for (int j = 0; j < 5; ++j) a[n][j] = a[n + 1][size - 5 + j] = fourth[j];
+  for (int p = 0; p < size; ++p) {
+    int best = p;
+    for (int i = p; i < size; ++i)
+      if (std::abs(a[i][p]) > std::abs(a[best][p])) best = i;
+    std::swap(a[p], a[best]);
+    for (int i = 0; i < size; ++i) {
+      if (i == p || a[i][p] == 0) continue;
+      const double factor = a[i][p] / a[p][p];
+      for (int j = p; j <= size; ++j) a[i][j] -= factor * a[p][j];
+    }
+  }
+  std::vector<double> c(size);
+  for (int i = 0; i < size; ++i) c[i] = a[i][size] / a[i][i];
+  return c;
+}
+
+/// Values over a grid of any dimension, the last axis innermost.
+struct Grid {
+  std::vector<int> nodes;
+  std::vector<double> values;
+
+  /// `value(x)`: x[k] in [0, 1] along axis k.
+  Grid(std::vector<int> n, const std::function<double(const double*)>& value)
+      : nodes(std::move(n)) {
+    int total = 1;
+    for (int k : nodes) total *= k;
+    values.resize(total);
+    parallel(total, [&](int i) {
+      double x[8];
+      int rest = i;
+      for (int k = int(nodes.size()) - 1; k >= 0; --k) {
+        x[k] = double(rest % nodes[k]) / (nodes[k] - 1);
+        rest /= nodes[k];
+      }
+      values[i] = value(x);
+    });
+  }
+
+  /// Coefficients along every axis, in the same order.
+  std::vector<double> spline() const {
+    std::vector<double> data = values;
+    int inner = 1;
+    for (int k = int(nodes.size()) - 1; k >= 0; --k) {
+      const int n = nodes[k], m = coefficients(n), outer = int(data.size()) / (n * inner);
+      std::vector<double> out(std::size_t(outer) * m * inner);
+      for (int o = 0; o < outer; ++o)
+        for (int i = 0; i < inner; ++i) {
+          std::vector<double> line(n);
+          for (int j = 0; j < n; ++j) line[j] = data[(o * n + j) * inner + i];
+          line = fit(line);
+          for (int j = 0; j < m; ++j) out[(o * m + j) * inner + i] = line[j];
+        }
+      data = std::move(out);
+      inner *= m;
+    }
+    return data;
+  }
+};
+
+/// Writes `const float name[]`.
+inline void write_numbers(std::FILE* to, const std::string& name, const std::vector<float>& table) {
+  std::fprintf(to, "const float %s[] = {", name.c_str());
+  for (std::size_t i = 0; i < table.size(); ++i)
+    std::fprintf(to, "%s%.8eF,", i % 8 ? "" : "\n", double(table[i]));
+  std::fprintf(to, "\n};\n");
+}
+
+}  // namespace mms::materials::tables
