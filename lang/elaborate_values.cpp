@@ -41,8 +41,7 @@ std::optional<Op> machine_op(Operator op, TypeId type) {
 
 }  // namespace
 
-Ref Elaborator::node(Op op, std::vector<Ref> args, std::uint32_t a, std::uint32_t b,
-                     std::vector<SlotType> results) {
+Ref Elaborator::node(Op op, Refs args, std::uint32_t a, std::uint32_t b, SlotTypes results) {
   for (Ref& r : args) r = localise(r);
   IrFunction& f = module.functions[function_];
   if (f.nodes.size() >= static_cast<std::size_t>(vm::limits::kNodes) && !full_) {
