@@ -52,7 +52,8 @@ std::uint32_t Elaborator::source_index(const Source* s) {
 
 vm::SourceLine Elaborator::line_of(Span s) {
   if (!s.source) return line_;
-  return {source_index(s.source), line_at(*s.source, s.begin), byte_column(*s.source, s.begin)};
+  const std::uint32_t line = line_at(*s.source, s.begin);
+  return {source_index(s.source), line, byte_column(*s.source, s.begin, line)};
 }
 
 void Elaborator::declare_items(const Graph& graph, Scope* scope) {

@@ -85,14 +85,15 @@ class Dependencies {
 
   std::uint32_t of(FunctionId function, std::span<const Ref> roots) {
     std::uint32_t mask = 0;
-    std::set<std::uint32_t> seen;
+    const IrFunction& f = m_.functions[function];
+    std::vector<bool> seen(f.nodes.size(), false);
     std::vector<std::uint32_t> pending;
     for (Ref r : roots) pending.push_back(r.node);
-    const IrFunction& f = m_.functions[function];
     while (!pending.empty()) {
       const std::uint32_t i = pending.back();
       pending.pop_back();
-      if (!seen.insert(i).second) continue;
+      if (seen[i]) continue;
+      seen[i] = true;
       const Node& n = f.nodes[i];
       if (n.known >= 0) continue;
       if (n.op == Op::PushInput)
