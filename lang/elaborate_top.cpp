@@ -297,6 +297,8 @@ void Elaborator::descriptor(const NamedDescriptor& named) {
         .note(first->second, "first defined here");
   function_ =
       new_function((d.form == Descriptor::Form::Surface ? "surface " : "volume ") + named.name);
+  // About what its own text asks for; what it calls comes on top.
+  module.functions[function_].nodes.reserve((d.span.end - d.span.begin) / 6);
   ElaboratedDescriptor e;
   e.syntax = &d;
   e.graph = named.graph;
