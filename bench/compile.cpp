@@ -316,7 +316,11 @@ int run(const Options& options) {
   std::vector<const Case*> staged;
   for (const Case& c : cases)
     if (!options.only.empty() || (c.name == "marble" || c.name == "mixed")) staged.push_back(&c);
-  if (!staged.empty()) text += "\nStage by stage, the least times:\n\n" + stage_table(staged);
+  if (!staged.empty())
+    text +=
+        "\nStage by stage, the least times, of runs of their own (the clock takes a part of "
+        "them):\n\n" +
+        stage_table(staged);
   text += "\n" + process_table(many);
   fmt::print("{}", text);
   std::string kinds = "The scripts are made by rule:";
