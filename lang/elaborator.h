@@ -261,7 +261,6 @@ class Elaborator {
   Ref component(Ref spectrum, std::uint32_t k);
   Ref stand_in();
   std::optional<Ref> call_for_real(const Value& f, Value x);
-  std::vector<bool> reached(std::uint32_t first, const std::vector<Ref>& roots) const;
   std::vector<Ref> substitute(std::uint32_t first, const std::vector<Ref>& from,
                               const std::vector<Ref>& to, std::vector<Ref> roots);
 

@@ -82,6 +82,26 @@ struct Module {
   std::unordered_map<Bits, std::uint32_t, HashOfBits> constant_numbers_;
 };
 
+/// The nodes that the values `roots` need, of those that are `wanted`: beyond others it does not
+/// look.
+template <class Wanted>
+std::vector<bool> reached(const IrFunction& f, std::span<const Ref> roots, Wanted wanted) {
+  std::vector<bool> seen(f.nodes.size(), false);
+  std::vector<std::uint32_t> pending;
+  const auto visit = [&](Ref r) {
+    if (seen[r.node] || !wanted(r)) return;
+    seen[r.node] = true;
+    pending.push_back(r.node);
+  };
+  for (Ref r : roots) visit(r);
+  while (!pending.empty()) {
+    const std::uint32_t n = pending.back();
+    pending.pop_back();
+    for (Ref a : f.nodes[n].args) visit(a);
+  }
+  return seen;
+}
+
 /// Adds an operation whose result types the opcode table or `results` gives.
 Ref add_node(IrFunction& f, FunctionId function, Node node);
 
