@@ -16,9 +16,27 @@
 
 namespace mms::stdlib::MMS_ISA {
 
-/// |x|^e for choosing among points; not exact.
-MMS_INLINE float rough_power(float x, float e) { return exp2_float(e * log2_float(magnitude(x))); }
-MMS_INLINE double rough_power(double x, double e) { return __builtin_pow(magnitude(x), e); }
+/// For choosing among points: good to a few roundings of numbers near one.
+MMS_INLINE float rough_log2(float x) { return log2_float(x); }
+MMS_INLINE double rough_log2(double x) { return __builtin_log2(x); }
+MMS_INLINE float rough_exp2(float x) { return exp2_float(x); }
+MMS_INLINE double rough_exp2(double x) { return __builtin_exp2(x); }
+
+/// The binary logarithm of Minkowski's distance. Powers are taken of what is left when the largest
+/// part is divided out: by themselves they leave the range of float where exponents are large.
+template <class R, int N>
+MMS_INLINE R log_of_minkowski(const R (&way)[N], R exponent) {
+  R logs[N], largest = R(-100), powers = 0;
+#pragma GCC unroll 4
+  for (int k = 0; k < N; ++k) {
+    const R size = magnitude(way[k]);
+    logs[k] = rough_log2(size > R(0x1p-100) ? size : R(0x1p-100));
+    largest = logs[k] > largest ? logs[k] : largest;
+  }
+#pragma GCC unroll 4
+  for (int k = 0; k < N; ++k) powers += rough_exp2(exponent * (logs[k] - largest));
+  return largest + rough_log2(powers) / exponent;
+}
 
 /// Exponents of Minkowski's distances beyond this one count as infinite.
 inline constexpr float kMostExponent = 64;
@@ -29,17 +47,17 @@ enum class Metrics { Euclidean, Simple, Any };
 /// A comparison of distances by `exponent`: grows with the distance.
 template <Metrics metrics, class R, int N>
 MMS_INLINE R distance_key(const R (&way)[N], R exponent) {
-  R squares = 0, sum = 0, largest = 0, powers = 0;
+  R squares = 0, sum = 0, largest = 0;
 #pragma GCC unroll 4
   for (int k = 0; k < N; ++k) {
     const R size = magnitude(way[k]);
     squares = fused(way[k], way[k], squares);
     sum += size;
     largest = size > largest ? size : largest;
-    if constexpr (metrics == Metrics::Any) powers += rough_power(size, exponent);
   }
   if constexpr (metrics == Metrics::Euclidean) return squares;
-  const R other = metrics == Metrics::Any ? powers : R(0);
+  R other = 0;
+  if constexpr (metrics == Metrics::Any) other = log_of_minkowski(way, exponent);
   const R key = exponent == 1 ? sum : exponent > R(kMostExponent) ? largest : other;
   return exponent == 2 ? squares : key;
 }

@@ -24,13 +24,18 @@ const real chebyshev = 1e9;
 /// |v[k]| for exponents above 64.
 /// >>> minkowski([1, 2], 3.0)
 /// 2.0800838...
+/// >>> minkowski([0.001, 0.0], 60.0)
+/// 0.001
 real minkowski(real[n] v, real exponent)
-    size = map(#abs, v);
+    size    = map(#abs, v);
+    largest = fold(#max, 0.0, size);
+    // Powers soon leave the range of numbers, but not once the largest is divided out.
+    powers  = map(function(x) -> min(x / largest, 1.0)^exponent, size);
     return select
         sqrt(fold(#+, 0.0, v * v)), if exponent == 2.0;
         fold(#+, 0.0, size), if exponent <= 1.0;
-        fold(#max, 0.0, size), if exponent > 64.0;
-        fold(#+, 0.0, map(function(x) -> x^exponent, size))^(1.0 / exponent) otherwise;
+        largest, if exponent > 64.0 or largest == 0.0;
+        largest * fold(#+, 0.0, powers)^(1.0 / exponent) otherwise;
     end;
 
 /// Distances to the nearest three points: F1, F2 and F3.

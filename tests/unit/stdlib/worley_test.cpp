@@ -111,8 +111,9 @@ double searched(const Setting& s) { return s.n < 4 ? 2 : distance({1, 1}, s.expo
 
 TEST_CASE("worley_ways: the nearest three points, by every distance") {
   for (int n = 1; n <= 4; ++n)
-    for (const Setting s : {Setting{n}, Setting{n, 1, 4}, Setting{n, 3.5, -1}, Setting{n, 1e3, 9},
-                            Setting{n, 2, 5, 3}, Setting{n, 1, 5, 4, 0.6}}) {
+    // At exponent 60 the powers of ways below 0.23 are no floats.
+    for (const Setting s : {Setting{n}, Setting{n, 1, 4}, Setting{n, 3.5, -1}, Setting{n, 60, 2},
+                            Setting{n, 1e3, 9}, Setting{n, 2, 5, 3}, Setting{n, 1, 5, 4, 0.6}}) {
       CAPTURE(n);
       CAPTURE(s.exponent);
       const int count = (kSanitized ? 20 : 200) * (n < 4 ? 5 : 1);
