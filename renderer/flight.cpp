@@ -52,7 +52,8 @@ Spectrumf Carried::weighted(double light_density, Estimator estimator) const {
 }
 
 Flight camera_flight(const World& world, int path, const Sampler& sampler, double x, double y) {
-  const CameraRay ray = world.camera.at(x, y, sampler(kLensU), sampler(kLensV));
+  const auto [lens_u, lens_v] = sampler.pair(kLensPair);
+  const CameraRay ray = world.camera.at(x, y, lens_u, lens_v);
   Flight f;
   f.origin = ray.origin;
   f.direction = ray.direction;

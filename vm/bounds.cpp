@@ -183,7 +183,9 @@ struct BoundsMachine::State : ValueTable {
     image_of(ask, images.data(), int(images.size()), in[0].lo).enclose(ask, &in[1], out.data());
     for (Interval& r : out) {
       const double most = r.magnitude(), slack = std::isfinite(most) ? kImageRounding * most : 0;
-      r = reals_within(r.lo - slack, r.hi + slack, 1, r.nan);
+      // Weights are positive: what spans no negative numbers gives none.
+      const double low = r.lo >= 0 ? std::max(r.lo - slack, 0.0) : r.lo - slack;
+      r = reals_within(low, r.hi + slack, 1, r.nan);
     }
   }
 

@@ -206,7 +206,7 @@ TEST_CASE("images: enclosures are the picture's own range, and 0") {
   CHECK(e.lo <= 0);
   CHECK(e.lo > -1e-6);
   CHECK(e.hi >= 1);
-  CHECK(e.hi < 1 + 1e-5);
+  CHECK(e.hi < 1 + vm::kImageRounding + 1e-6);
 }
 
 TEST_CASE(
