@@ -219,7 +219,7 @@ void worley_squared(const Interval* in, Interval* out) {
 /// less.
 template <int N>
 void worley_edge(const Interval* in, Interval* out) {
-  const bool number = finite(in, N) && !in[2 * N + 1].contains_infinity();
+  const bool number = finite(in, N) && in[2 * N + 1].magnitude() < 0x1p60;  // squares are numbers
   const double far = 2 * N * (2.5 + 0.5 * in[2 * N + 1].magnitude());
   const bool within = in[2 * N + 1].magnitude() <= 1;
   const double most = std::sqrt(1.25 + N) + kDistanceError;
