@@ -130,7 +130,7 @@ std::pair<double, double> difference(const std::vector<float>& a, const std::vec
   return {std::sqrt(sum / (3 * kPoints)), most};
 }
 
-int run() {
+std::string document() {
   const std::vector<unsigned char> bytes = picture();
   const std::string file =
       (std::filesystem::temp_directory_path() / "mms_bench_images.ppm").string();
@@ -209,11 +209,12 @@ int run() {
       "{:.1g}.\n",
       megabytes(0), megabytes(1), megabytes(3), rms, most, native_error);
   std::filesystem::remove(file);
-  fmt::print("{}", text);
-  return write_part("images", text) ? 0 : 1;
+  return text;
 }
 
 }  // namespace
 }  // namespace mms::bench
 
-int main() { return mms::bench::run(); }
+int main(int count, char** arguments) {
+  return mms::bench::part_main(count, arguments, "images", mms::bench::document);
+}
