@@ -28,4 +28,15 @@ bool write_part(std::string_view name, std::string_view text) {
   return false;
 }
 
+int part_main(int count, char** arguments, std::string_view name, std::string (*make)()) {
+  const bool quiet = count == 2 && std::string_view(arguments[1]) == "--no-document";
+  if (count > 1 && !quiet) {
+    fmt::print(stderr, "usage: bench_{} [--no-document]\n", name);
+    return 2;
+  }
+  const std::string text = make();
+  fmt::print("{}", text);
+  return quiet || write_part(name, text) ? 0 : 1;
+}
+
 }  // namespace mms::bench

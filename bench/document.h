@@ -14,4 +14,8 @@ namespace mms::bench {
 /// False, with a message on standard error, where the file cannot be written.
 bool write_part(std::string_view name, std::string_view text);
 
+/// The main function of `bench_NAME`: prints what `make` measures, and writes it as that part
+/// unless `--no-document` is asked for. Its exit code.
+int part_main(int count, char** arguments, std::string_view name, std::string (*make)());
+
 }  // namespace mms::bench

@@ -145,12 +145,12 @@ std::string row_of(const vm::Builtin& row) {
                      c.single[2], error);
 }
 
-int run(bool write) {
+std::string document() {
   std::string table =
       "| material | evaluate | pdf | sample | evaluate alone | pdf alone | sample alone | error, "
       "median | error, 999 of 1000 |\n|---|---|---|---|---|---|---|---|---|\n";
   for (const vm::Builtin& row : materials::rows()) table += row_of(row);
-  const std::string text = fmt::format(
+  return fmt::format(
       "## Materials, ns a hit\n\nAll eight wavelengths of a hit in float, the choice among parts "
       "included: the median of {} rounds\nover {} hits, half of whose directions are the model's "
       "own "
@@ -160,15 +160,11 @@ int run(bool write) {
       "have "
       "no f. `./run bench`, or\n`bench_materials` alone.\n\n{}",
       kRounds, kHits, table);
-  fmt::print("{}", text);
-  return !write || write_part("materials", text) ? 0 : 1;
 }
 
 }  // namespace
 }  // namespace mms::bench
 
 int main(int count, char** arguments) {
-  const bool quiet = count == 2 && std::string_view(arguments[1]) == "--no-document";
-  if (count > 1 && !quiet) return fmt::print(stderr, "usage: bench_materials [--no-document]\n"), 2;
-  return mms::bench::run(!quiet);
+  return mms::bench::part_main(count, arguments, "materials", mms::bench::document);
 }

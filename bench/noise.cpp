@@ -160,23 +160,19 @@ std::string twin_table(const Points& points) {
   return table;
 }
 
-int run(bool write) {
+std::string document() {
   const Points points(kPoints);
-  const std::string text = fmt::format(
+  return fmt::format(
       "## Noise, ns a point\n\nA call of each, in a batch, through the machine: the median of {} "
       "rounds over {} random points\nin a cube of 8 cells a side. `./run bench`, or "
       "`bench_noise` alone.\n\n{}\nNext to the twins of the suite above, in turn in one "
       "process:\n\n{}",
       kRounds, kPoints, noise_table(points), twin_table(points));
-  fmt::print("{}", text);
-  return !write || write_part("noise", text) ? 0 : 1;
 }
 
 }  // namespace
 }  // namespace mms::bench
 
 int main(int count, char** arguments) {
-  const bool quiet = count == 2 && std::string_view(arguments[1]) == "--no-document";
-  if (count > 1 && !quiet) return fmt::print(stderr, "usage: bench_noise [--no-document]\n"), 2;
-  return mms::bench::run(!quiet);
+  return mms::bench::part_main(count, arguments, "noise", mms::bench::document);
 }

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/short_list.h"
 #include "lang/source.h"
 
 namespace mms::lang {
@@ -122,7 +123,7 @@ struct Expr {
   std::int64_t integer = 0;
   std::string text;
   Path path;
-  std::vector<ExprHandle> args;
+  ShortList<ExprHandle, 2> args;
   std::vector<Operator> ops;
   std::vector<Argument> arguments;
   std::vector<Formal> formals;

@@ -26,20 +26,7 @@ SlotType derivative_type(SlotType t) { return t == SlotType::Spectrum ? t : Slot
 /// The nodes whose derivative the derivative of `roots` asks for: conditions and integers are not
 /// among them, so what only they need may lack a rule.
 std::vector<bool> needed(const IrFunction& f, const std::vector<Ref>& roots) {
-  std::vector<bool> seen(f.nodes.size(), false);
-  std::vector<std::uint32_t> pending;
-  auto visit = [&](Ref r) {
-    if (!moves(f.type(r)) || f.nodes[r.node].steady || seen[r.node]) return;
-    seen[r.node] = true;
-    pending.push_back(r.node);
-  };
-  for (Ref r : roots) visit(r);
-  while (!pending.empty()) {
-    const std::uint32_t n = pending.back();
-    pending.pop_back();
-    for (Ref a : f.nodes[n].args) visit(a);
-  }
-  return seen;
+  return reached(f, roots, [&](Ref r) { return moves(f.type(r)) && !f.nodes[r.node].steady; });
 }
 
 }  // namespace

@@ -88,25 +88,6 @@ Value Elaborator::tabulate(const Value& count, const Value& f) {
   return array_of(std::move(parts), {});
 }
 
-/// The nodes from `first` on that the values `roots` need.
-std::vector<bool> Elaborator::reached(std::uint32_t first, const std::vector<Ref>& roots) const {
-  const std::vector<Node>& nodes = module.functions[function_].nodes;
-  std::vector<bool> seen(nodes.size(), false);
-  std::vector<std::uint32_t> pending;
-  auto visit = [&](Ref r) {
-    if (r.node < first || seen[r.node]) return;
-    seen[r.node] = true;
-    pending.push_back(r.node);
-  };
-  for (Ref r : roots) visit(r);
-  while (!pending.empty()) {
-    const std::uint32_t n = pending.back();
-    pending.pop_back();
-    for (Ref a : nodes[n].args) visit(a);
-  }
-  return seen;
-}
-
 /// `roots` as they are where the values `from`, made from node `first` on, are `to`.
 std::vector<Ref> Elaborator::substitute(std::uint32_t first, const std::vector<Ref>& from,
                                         const std::vector<Ref>& to, std::vector<Ref> roots) {
@@ -116,7 +97,8 @@ std::vector<Ref> Elaborator::substitute(std::uint32_t first, const std::vector<R
     auto it = now.find(r);
     return it == now.end() ? r : it->second;
   };
-  const std::vector<bool> wanted = reached(first, roots);
+  const std::vector<bool> wanted =
+      reached(module.functions[function_], roots, [&](Ref r) { return r.node >= first; });
   const vm::SourceLine line = line_;
   for (std::uint32_t i = first; i < wanted.size(); ++i) {
     const Node n = module.functions[function_].nodes[i];
@@ -211,7 +193,8 @@ std::optional<Ref> Elaborator::widened(std::uint32_t first, Ref x, Ref s, Ref ro
     auto it = wide.find(r);
     return it == wide.end() ? node(Op::Splat, {r}) : it->second;
   };
-  const std::vector<bool> wanted = reached(first, {root});
+  const std::vector<bool> wanted =
+      reached(module.functions[function_], {&root, 1}, [&](Ref r) { return r.node >= first; });
   for (std::uint32_t i = first; i < wanted.size(); ++i) {
     const Node n = module.functions[function_].nodes[i];
     const bool moves =

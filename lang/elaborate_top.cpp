@@ -52,7 +52,8 @@ std::uint32_t Elaborator::source_index(const Source* s) {
 
 vm::SourceLine Elaborator::line_of(Span s) {
   if (!s.source) return line_;
-  return {source_index(s.source), line_at(*s.source, s.begin), byte_column(*s.source, s.begin)};
+  const std::uint32_t line = line_at(*s.source, s.begin);
+  return {source_index(s.source), line, byte_column(*s.source, s.begin, line)};
 }
 
 void Elaborator::declare_items(const Graph& graph, Scope* scope) {
@@ -296,6 +297,8 @@ void Elaborator::descriptor(const NamedDescriptor& named) {
         .note(first->second, "first defined here");
   function_ =
       new_function((d.form == Descriptor::Form::Surface ? "surface " : "volume ") + named.name);
+  // About what its own text asks for; what it calls comes on top.
+  module.functions[function_].nodes.reserve((d.span.end - d.span.begin) / 6);
   ElaboratedDescriptor e;
   e.syntax = &d;
   e.graph = named.graph;

@@ -149,8 +149,7 @@ class Elaborator {
   bool unify_dim(Context c, const TypeExpr::Dim& d, int size, Generics& g);
 
   // --- nodes and values (elaborate_values.cpp) ---
-  Ref node(vm::Op op, std::vector<Ref> args, std::uint32_t a = 0, std::uint32_t b = 0,
-           std::vector<vm::SlotType> results = {});
+  Ref node(vm::Op op, Refs args, std::uint32_t a = 0, std::uint32_t b = 0, SlotTypes results = {});
   Ref constant(vm::Constant c);
   Ref real(double v);
   Ref integer(std::int64_t v);
@@ -262,7 +261,6 @@ class Elaborator {
   Ref component(Ref spectrum, std::uint32_t k);
   Ref stand_in();
   std::optional<Ref> call_for_real(const Value& f, Value x);
-  std::vector<bool> reached(std::uint32_t first, const std::vector<Ref>& roots) const;
   std::vector<Ref> substitute(std::uint32_t first, const std::vector<Ref>& from,
                               const std::vector<Ref>& to, std::vector<Ref> roots);
 

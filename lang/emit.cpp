@@ -29,20 +29,21 @@ class FunctionEmitter {
 
  private:
   using Region = std::uint32_t;
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   struct RegionInfo {
     Region parent = 0;
     std::uint32_t depth = 0;
     std::vector<std::uint32_t> stored;  ///< nodes computed here into locals, in order
   };
   struct Placement {
-    Region region;
-    std::vector<std::uint32_t> locals;  ///< one for each result, where the node is stored
-    Region arms[2] = {0, 0};            ///< of a choice
+    Region region = 0;
+    std::uint32_t local = kNone;  ///< of the first result, where the node is stored
+    Region arms[2] = {0, 0};      ///< of a choice
   };
 
   void place();
   void place_node(std::uint32_t n);
-  std::vector<Region> homes(std::uint32_t n) const;
+  ShortList<Region, 2> homes(std::uint32_t n) const;
   Region common(Region a, Region b) const;
   bool inside(Region r, Region ancestor) const;
   bool leaf(std::uint32_t n) const {
@@ -66,9 +67,9 @@ class FunctionEmitter {
   FunctionId number_;
   vm::Function& out_;
   std::vector<RegionInfo> regions_{1};
-  std::vector<std::vector<Region>> uses_;
+  std::vector<ShortList<Region, 2>> uses_;
   std::vector<std::uint32_t> use_count_;
-  std::vector<std::vector<Placement>> placements_;
+  std::vector<ShortList<Placement, 1>> placements_;
   std::vector<bool> may_not_end_;
 };
 
@@ -86,15 +87,15 @@ FunctionEmitter::Region FunctionEmitter::common(Region a, Region b) const {
 }
 
 /// Where node `n` is computed, given the regions that use it.
-std::vector<FunctionEmitter::Region> FunctionEmitter::homes(std::uint32_t n) const {
-  std::vector<Region> uses = uses_[n];
-  std::sort(uses.begin(), uses.end());
-  uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
+ShortList<FunctionEmitter::Region, 2> FunctionEmitter::homes(std::uint32_t n) const {
   if (!may_not_end_[n]) {
-    Region home = uses[0];
-    for (Region r : uses) home = common(home, r);
+    Region home = uses_[n][0];
+    for (Region r : uses_[n]) home = common(home, r);
     return {home};
   }
+  std::vector<Region> uses = uses_[n];
+  std::ranges::sort(uses);
+  uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
   std::vector<Region> outermost;
   for (Region r : uses) {
     const bool covered =
@@ -129,7 +130,7 @@ std::vector<std::uint32_t> FunctionEmitter::live_order() const {
 void FunctionEmitter::place_node(std::uint32_t n) {
   const Node& node = f_.nodes[n];
   for (Region home : homes(n)) {
-    Placement p{home, {}, {}};
+    Placement p{home};
     if (node.op == Op::If) {
       for (Region& arm : p.arms) {
         arm = static_cast<Region>(regions_.size());
@@ -145,7 +146,7 @@ void FunctionEmitter::place_node(std::uint32_t n) {
       for (Ref a : node.args) uses_[a.node].push_back(home);
     }
     for (Ref a : node.args) ++use_count_[a.node];
-    placements_[n].push_back(std::move(p));
+    placements_[n].push_back(p);
   }
 }
 
@@ -232,7 +233,7 @@ void FunctionEmitter::push(Ref ref, Region r) {
     return code(node.op, node, node.op == Op::PushConst ? parent_.constant(node.a) : node.a,
                 node.b);
   Placement& p = placement(ref.node, r);
-  if (!p.locals.empty()) return code(Op::LoadLocal, node, p.locals[ref.result]);
+  if (p.local != kNone) return code(Op::LoadLocal, node, p.local + ref.result);
   compute(ref.node, p);
 }
 
@@ -244,13 +245,11 @@ void FunctionEmitter::begin_region(Region r) {
     while (placements_[n][which].region != r) ++which;
     Placement p = placements_[n][which];
     compute(n, p);
-    std::vector<std::uint32_t> locals;
-    for (SlotType t : f_.nodes[n].results) {
-      locals.push_back(static_cast<std::uint32_t>(out_.locals.size()));
-      out_.locals.push_back(t);
-    }
-    for (std::size_t k = locals.size(); k-- > 0;) code(Op::StoreLocal, f_.nodes[n], locals[k]);
-    placements_[n][which].locals = std::move(locals);
+    const auto first = static_cast<std::uint32_t>(out_.locals.size());
+    for (SlotType t : f_.nodes[n].results) out_.locals.push_back(t);
+    for (auto local = static_cast<std::uint32_t>(out_.locals.size()); local-- > first;)
+      code(Op::StoreLocal, f_.nodes[n], local);
+    placements_[n][which].local = first;
   }
 }
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "base/hash.h"
+
 namespace mms::lang {
 namespace {
 
@@ -22,6 +24,11 @@ vm::SlotType type_of(char letter) {
 }
 
 }  // namespace
+
+std::size_t Module::HashOfBits::operator()(const Bits& b) const {
+  const auto& [type, f32, f64, integer] = b;
+  return hash_combine(f64, f32 ^ std::uint64_t{std::uint32_t(integer)} << 32 ^ std::uint64_t(type));
+}
 
 std::uint32_t Module::constant(const vm::Constant& c) {
   const Bits bits = {c.type, std::bit_cast<std::uint32_t>(c.f32),
@@ -42,8 +49,8 @@ std::uint32_t Module::builtin(const vm::Builtin* row, const std::vector<vm::Slot
   return static_cast<std::uint32_t>(builtins.size() - 1);
 }
 
-std::vector<vm::SlotType> pushed_types(vm::Op op) {
-  std::vector<vm::SlotType> types;
+SlotTypes pushed_types(vm::Op op) {
+  SlotTypes types;
   for (char c : vm::info(op).pushes)
     if (c != '?') types.push_back(type_of(c));
   return types;

@@ -8,12 +8,13 @@
 
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <span>
 #include <string>
 #include <tuple>
+#include <unordered_map>
 #include <vector>
 
+#include "base/short_list.h"
 #include "vm/program.h"
 
 namespace mms::lang {
@@ -28,6 +29,9 @@ struct Ref {
   friend auto operator<=>(const Ref&, const Ref&) = default;
 };
 
+using Refs = ShortList<Ref, 3>;
+using SlotTypes = ShortList<vm::SlotType, 8>;
+
 /// One operation. Besides the arithmetic rows of the opcode table a node may be
 ///   PushConst a (constant), PushInput a, LoadLocal a (parameter `a`),
 ///   If: args[0] is the condition, then the values of the first arm, then those of the second,
@@ -35,8 +39,8 @@ struct Ref {
 struct Node {
   vm::Op op = vm::Op::PushConst;
   std::uint32_t a = 0, b = 0;
-  std::vector<Ref> args;
-  std::vector<vm::SlotType> results;
+  Refs args;
+  SlotTypes results;
   vm::SourceLine line;
   std::int32_t known = -1;  ///< the constant it is certain to be, where it has one result
   bool steady = false;      ///< differentiation takes it for constant
@@ -72,14 +76,37 @@ struct Module {
 
  private:
   using Bits = std::tuple<vm::SlotType, std::uint32_t, std::uint64_t, std::int32_t>;
-  std::map<Bits, std::uint32_t> constant_numbers_;
+  struct HashOfBits {
+    std::size_t operator()(const Bits& b) const;
+  };
+  std::unordered_map<Bits, std::uint32_t, HashOfBits> constant_numbers_;
 };
+
+/// The nodes that the values `roots` need, of those that are `wanted`: beyond others it does not
+/// look.
+template <class Wanted>
+std::vector<bool> reached(const IrFunction& f, std::span<const Ref> roots, Wanted wanted) {
+  std::vector<bool> seen(f.nodes.size(), false);
+  std::vector<std::uint32_t> pending;
+  const auto visit = [&](Ref r) {
+    if (seen[r.node] || !wanted(r)) return;
+    seen[r.node] = true;
+    pending.push_back(r.node);
+  };
+  for (Ref r : roots) visit(r);
+  while (!pending.empty()) {
+    const std::uint32_t n = pending.back();
+    pending.pop_back();
+    for (Ref a : f.nodes[n].args) visit(a);
+  }
+  return seen;
+}
 
 /// Adds an operation whose result types the opcode table or `results` gives.
 Ref add_node(IrFunction& f, FunctionId function, Node node);
 
 /// Types an operation of the table pushes; empty where the operand decides.
-std::vector<vm::SlotType> pushed_types(vm::Op op);
+SlotTypes pushed_types(vm::Op op);
 
 /// Text of one function, for `--dump-after`.
 std::string dump(const Module& module, const IrFunction& f);

@@ -85,21 +85,16 @@ class Dependencies {
 
   std::uint32_t of(FunctionId function, std::span<const Ref> roots) {
     std::uint32_t mask = 0;
-    std::set<std::uint32_t> seen;
-    std::vector<std::uint32_t> pending;
-    for (Ref r : roots) pending.push_back(r.node);
     const IrFunction& f = m_.functions[function];
-    while (!pending.empty()) {
-      const std::uint32_t i = pending.back();
-      pending.pop_back();
-      if (!seen.insert(i).second) continue;
+    const std::vector<bool> seen =
+        reached(f, roots, [&](Ref r) { return f.nodes[r.node].known < 0; });
+    for (std::size_t i = 0; i < f.nodes.size(); ++i) {
       const Node& n = f.nodes[i];
-      if (n.known >= 0) continue;
+      if (!seen[i]) continue;
       if (n.op == Op::PushInput)
         mask |= 1u << static_cast<int>(vm::input_variable(static_cast<int>(n.a)));
       if (n.op == Op::Call && called_.insert(n.a).second)
         mask |= of(n.a, m_.functions[n.a].results);
-      for (Ref a : n.args) pending.push_back(a.node);
     }
     return mask;
   }

@@ -50,7 +50,7 @@ enum class Level : std::uint8_t { O0, O1, O2 };
 /// `Linked::unknown_params`.
 enum class UnknownParams : std::uint8_t { Refuse, Report };
 /// Called when a stage of the linker (`lint`, `library`, `elaborate`, a pass, `emit`, `verify`) is
-/// done: for measuring.
+/// done: for measuring. The passes come once for each function.
 using StageDone = std::function<void(std::string_view stage)>;
 
 /// A source found for an import. Two of one name are one source.

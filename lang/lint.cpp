@@ -2,10 +2,12 @@
 #include "lang/lint.h"
 
 #include <algorithm>
-#include <map>
+#include <compare>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "base/hash.h"
 #include "vm/outputs.h"
 
 namespace mms::lang {
@@ -30,22 +32,29 @@ class Reads {
       for (const TypeExpr::Dim& d : t.dims) add(d.path);
     }
     for (const Alias& a : g.aliases) add(a.inside);
-    for (auto& [name, places] : places_) std::sort(places.begin(), places.end());
+    std::ranges::sort(reads_);
   }
 
-  bool anywhere(std::string_view name) const { return places_.contains(name); }
+  bool anywhere(std::string_view name) const {
+    return in(name, {nullptr, 0, std::numeric_limits<std::uint32_t>::max()});
+  }
   bool in(std::string_view name, Span where) const {
-    const auto it = places_.find(name);
-    if (it == places_.end()) return false;
-    const auto first = std::lower_bound(it->second.begin(), it->second.end(), where.begin);
-    return first != it->second.end() && *first < where.end;
+    const std::uint64_t hash = hash_bytes(name);
+    const auto it = std::ranges::lower_bound(reads_, Read{hash, where.begin});
+    return it != reads_.end() && it->hash == hash && it->place < where.end;
   }
 
  private:
   void add(const Path& path) {
-    if (!path.empty()) places_[path[0].text].push_back(path[0].span.begin);
+    if (!path.empty()) reads_.push_back({hash_bytes(path[0].text), path[0].span.begin});
   }
-  std::map<std::string, std::vector<std::uint32_t>, std::less<>> places_;
+  /// A name stands for itself by its hash: that two are alike costs one warning, if ever.
+  struct Read {
+    std::uint64_t hash;
+    std::uint32_t place;
+    friend auto operator<=>(const Read&, const Read&) = default;
+  };
+  std::vector<Read> reads_;
 };
 
 class Lint {
@@ -84,15 +93,16 @@ class Lint {
         output_names(surface ? vm::DescriptorForm::Surface : vm::DescriptorForm::Volume);
     definitions(d.body, d.span);
     for (const Assignment& a : d.body.assignments) {
-      if (std::find(outputs.begin(), outputs.end(), a.name.text) != outputs.end()) continue;
+      if (reads_.in(a.name.text, d.span) ||
+          std::ranges::find(outputs, a.name.text) != outputs.end())
+        continue;
       const std::string near = nearest(a.name.text, outputs);
-      if (near.empty() || reads_.in(a.name.text, d.span)) {
-        local(a.name, d.span);
-      } else {
+      if (near.empty())
+        diagnostics_.add(Diag::Unused, a.name.span, a.name.text);
+      else
         diagnostics_
             .add(Diag::SuspiciousOutput, a.name.span, a.name.text, surface ? "surface" : "volume")
             .help("did you mean `" + near + "`?");
-      }
     }
   }
 

@@ -2,10 +2,12 @@
 #include "lang/optimise.h"
 
 #include <algorithm>
+#include <bit>
 #include <stdexcept>
-#include <unordered_set>
 
 #include <fmt/format.h>
+
+#include "base/hash.h"
 
 namespace mms::lang {
 namespace {
@@ -16,14 +18,17 @@ using vm::SlotType;
 /// Rewrites a function node by node, arguments first, and knows where each value went.
 class Rewrite {
  public:
-  explicit Rewrite(IrFunction& f)
-      : out{std::move(f.name), std::move(f.params), {}, {}, f.recursive}, first_(f.nodes.size()) {
+  Rewrite(IrFunction& f, Room& room)
+      : out{std::move(f.name), std::move(f.params), {}, std::move(room), f.recursive},
+        room_(room),
+        first_(f.nodes.size()) {
     std::uint32_t values = 0;
     for (std::size_t i = 0; i < f.nodes.size(); ++i) {
       first_[i] = values;
       values += static_cast<std::uint32_t>(f.nodes[i].results.size());
     }
     where_.resize(values);
+    out.nodes.clear();
     out.nodes.reserve(f.nodes.size());
   }
 
@@ -36,7 +41,7 @@ class Rewrite {
     for (std::size_t k = 0; k < count; ++k)
       put(index, k, {r.node, static_cast<std::uint16_t>(k), r.function});
   }
-  void map(std::vector<Ref>& args) const {
+  void map(Refs& args) const {
     for (Ref& a : args) a = at(a);
   }
   /// Keeps `n`, whose arguments have been mapped.
@@ -48,12 +53,14 @@ class Rewrite {
     map(n.args);
     keep_mapped(index, std::move(n), function);
   }
-  IrFunction finish(const IrFunction& f) {
+  IrFunction finish(IrFunction& f) {
     for (Ref r : f.results) out.results.push_back(at(r));
+    room_ = std::move(f.nodes);
     return std::move(out);
   }
 
  private:
+  Room& room_;
   std::vector<std::uint32_t> first_;  ///< of each node, in `where_`
   std::vector<Ref> where_;
 };
@@ -69,7 +76,7 @@ std::vector<std::uint32_t> order(const IrFunction& f) {
   return o;
 }
 
-IrFunction fold_known(const Module&, IrFunction f) {
+IrFunction fold_known(const Module&, IrFunction f, Room&) {
   for (Node& n : f.nodes) {
     if (n.known < 0 || n.op == Op::PushConst) continue;
     n = {Op::PushConst, static_cast<std::uint32_t>(n.known), 0, {}, n.results, n.line, n.known};
@@ -77,47 +84,58 @@ IrFunction fold_known(const Module&, IrFunction f) {
   return f;
 }
 
-/// Nodes that compute the same, whatever their arguments are.
-struct SameNode {
-  const std::vector<Node>* nodes;
+/// Finds nodes that compute the same, whatever their arguments are.
+class DistinctNodes {
+ public:
+  DistinctNodes(const std::vector<Node>& nodes, std::size_t most)
+      : nodes_(nodes), table_(std::bit_ceil(2 * most + 1), kNone) {}
 
-  std::size_t operator()(std::uint32_t i) const {
-    const Node& n = (*nodes)[i];
-    std::uint64_t h =
-        static_cast<std::uint64_t>(n.op) + (std::uint64_t{n.a} << 8) + (std::uint64_t{n.b} << 40);
-    auto mix = [&](std::uint64_t x) {
-      h = (h ^ x) * 0x9E3779B97F4A7C15u;
-      h ^= h >> 32;
-    };
-    mix(n.args.size());
-    for (Ref r : n.args) mix(r.node + (std::uint64_t{r.result} << 32));
+  /// The first of the nodes so far that node `i` equals; `i` itself if it is the first.
+  std::uint32_t first_like(std::uint32_t i) {
+    const Node& n = nodes_[i];
+    for (std::size_t at = hash(n);; ++at) {
+      std::uint32_t& k = table_[at & (table_.size() - 1)];
+      if (k == kNone) k = i;
+      if (k == i || same(nodes_[k], n)) return k;
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  static std::size_t hash(const Node& n) {
+    std::uint64_t h = hash_combine(
+        static_cast<std::uint64_t>(n.op) + (std::uint64_t{n.a} << 8) + (std::uint64_t{n.b} << 40),
+        n.args.size());
+    for (Ref r : n.args) h = mix64(h ^ (r.node + (std::uint64_t{r.result} << 32)));
     return h;
   }
-  bool operator()(std::uint32_t i, std::uint32_t k) const {
-    const Node &x = (*nodes)[i], &y = (*nodes)[k];
+  static bool same(const Node& x, const Node& y) {
     return x.op == y.op && x.a == y.a && x.b == y.b && x.args == y.args;
   }
+
+  const std::vector<Node>& nodes_;
+  std::vector<std::uint32_t> table_;
 };
 
 /// Each node is appended, and taken off again where an equal one stands already.
-IrFunction share(const Module&, IrFunction f) {
-  Rewrite w(f);
-  const SameNode same{&w.out.nodes};
-  std::unordered_set<std::uint32_t, SameNode, SameNode> seen(f.nodes.size(), same, same);
+IrFunction share(const Module&, IrFunction f, Room& room) {
+  Rewrite w(f, room);
+  DistinctNodes distinct(w.out.nodes, f.nodes.size());
   for (std::uint32_t i : order(f)) {
     const std::size_t count = f.nodes[i].results.size();
     w.map(f.nodes[i].args);
     const Ref r = add_node(w.out, number_of(f), std::move(f.nodes[i]));
-    const auto [it, is_new] = seen.insert(r.node);
-    w.put_all(i, count, {*it, 0, r.function});
-    if (!is_new) w.out.nodes.pop_back();
+    const std::uint32_t first = distinct.first_like(r.node);
+    w.put_all(i, count, {first, 0, r.function});
+    if (first != r.node) w.out.nodes.pop_back();
   }
   return w.finish(f);
 }
 
 /// Identities that hold for every float, NaN, infinity and signed zero included.
-IrFunction simplify(const Module& m, IrFunction f) {
-  Rewrite w(f);
+IrFunction simplify(const Module& m, IrFunction f, Room& room) {
+  Rewrite w(f, room);
   auto is = [&](Ref r, double v) {
     const Node* n = &w.out.nodes[r.node];
     if (n->op == Op::Splat) n = &w.out.nodes[n->args[0].node];
@@ -164,17 +182,17 @@ IrFunction simplify(const Module& m, IrFunction f) {
 }
 
 /// Drops nodes nobody reads, and the results of choices that nobody reads.
-IrFunction remove_dead(const Module&, IrFunction f) {
+IrFunction remove_dead(const Module&, IrFunction f, Room& room) {
   // Which results are read; an argument counts only if its choice's result does.
-  std::vector<std::vector<bool>> read(f.nodes.size());
+  std::vector<ShortList<bool, 8>> read(f.nodes.size());
   std::vector<Ref> pending = f.results;
   while (!pending.empty()) {
     const Ref r = pending.back();
     pending.pop_back();
-    std::vector<bool>& seen = read[r.node];
+    ShortList<bool, 8>& seen = read[r.node];
     const Node& n = f.nodes[r.node];
     const bool first = seen.empty();
-    if (first) seen.resize(n.results.size(), false);
+    while (seen.size() < n.results.size()) seen.push_back(false);
     if (seen[r.result]) continue;
     seen[r.result] = true;
     if (n.op == Op::If) {
@@ -185,7 +203,7 @@ IrFunction remove_dead(const Module&, IrFunction f) {
       pending.insert(pending.end(), n.args.begin(), n.args.end());
     }
   }
-  Rewrite w(f);
+  Rewrite w(f, room);
   for (std::uint32_t i : order(f)) {
     if (read[i].empty()) continue;
     Node& n = f.nodes[i];
@@ -243,9 +261,9 @@ int cost_of(const Module& m, const IrFunction& f, Ref r, int limit,
 }
 
 /// A choice between cheap values computes both: that costs less than a branch over a batch.
-IrFunction convert_ifs(const Module& m, IrFunction f) {
+IrFunction convert_ifs(const Module& m, IrFunction f, Room& room) {
   constexpr int kCheap = 16;  // measured: an arm that is skipped saves about this much
-  Rewrite w(f);
+  Rewrite w(f, room);
   for (std::uint32_t i : order(f)) {
     Node& n = f.nodes[i];
     int cost = 0;
@@ -260,8 +278,7 @@ IrFunction convert_ifs(const Module& m, IrFunction f) {
     }
     const std::size_t count = n.results.size();
     for (std::size_t k = 0; k < count; ++k) {
-      const std::vector<Ref> args{w.at(n.args[0]), w.at(n.args[1 + k]),
-                                  w.at(n.args[1 + count + k])};
+      const Refs args{w.at(n.args[0]), w.at(n.args[1 + k]), w.at(n.args[1 + count + k])};
       if (args[1] == args[2]) {
         w.put(i, k, args[1]);
         continue;
@@ -318,17 +335,19 @@ std::span<const PassInfo> passes() {
 
 std::string optimise(Module& module, const LinkOptions& options) {
   std::string text;
-  for (const Pass& p : kPipeline) {
-    if (options.level < p.info.from) continue;
-    for (IrFunction& f : module.functions) {
-      if (f.results.empty()) continue;
+  Room room;
+  // All passes over one function before the next: it is in the processor's cache then.
+  for (IrFunction& f : module.functions) {
+    if (f.results.empty()) continue;
+    for (const Pass& p : kPipeline) {
+      if (options.level < p.info.from) continue;
       if (p.run) {
-        f = p.run(module, std::move(f));
+        f = p.run(module, std::move(f), room);
         recheck(module, f, p);
+        if (options.stage_done) options.stage_done(p.info.name);
       }
       if (p.info.name == options.dump_after) text += dump(module, f);
     }
-    if (p.run && options.stage_done) options.stage_done(p.info.name);
   }
   return text;
 }

@@ -10,9 +10,14 @@
 
 namespace mms::lang {
 
+/// Memory of a list of nodes, handed from pass to pass: a result takes it, an argument leaves its
+/// own.
+using Room = std::vector<Node>;
+
 struct Pass {
   PassInfo info;
-  IrFunction (*run)(const Module&, IrFunction);  ///< null: done before, while the graph was made
+  /// Null: done before, while the graph was made.
+  IrFunction (*run)(const Module&, IrFunction, Room&);
 };
 
 /// The pipeline, in order.

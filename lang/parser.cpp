@@ -58,6 +58,9 @@ Parser::Parser(SourcePtr source, Diagnostics& diagnostics, std::uint32_t begin, 
       diagnostics_(diagnostics),
       lexer_(*graph_.source, diagnostics, begin, end) {
   diagnostics.keep(graph_.source);
+  // As many as there can be in ordinary text: pages that are not needed are never touched.
+  graph_.exprs.reserve(graph_.source->text.size() / 5);
+  heights_.reserve(graph_.exprs.capacity());
 }
 
 const Token& Parser::peek(std::uint32_t ahead) {

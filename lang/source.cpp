@@ -30,8 +30,8 @@ std::uint32_t line_at(const Source& source, std::uint32_t offset) {
   return static_cast<std::uint32_t>(next - source.line_starts.begin());
 }
 
-std::uint32_t byte_column(const Source& source, std::uint32_t offset) {
-  return offset - source.line_starts[line_at(source, offset) - 1] + 1;
+std::uint32_t byte_column(const Source& source, std::uint32_t offset, std::uint32_t line) {
+  return offset - source.line_starts[line - 1] + 1;
 }
 
 Position position_at(const Source& source, std::uint32_t offset) {

@@ -30,7 +30,7 @@ Position position_at(const Source& source, std::uint32_t offset);
 /// Only the line of `offset`, which is faster.
 std::uint32_t line_at(const Source& source, std::uint32_t offset);
 /// 1-based column in bytes.
-std::uint32_t byte_column(const Source& source, std::uint32_t offset);
+std::uint32_t byte_column(const Source& source, std::uint32_t offset, std::uint32_t line);
 /// The text of a 1-based line, without its end.
 std::string_view line_text(const Source& source, std::uint32_t line);
 

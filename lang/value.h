@@ -61,7 +61,7 @@ using MaterialPtr = std::shared_ptr<const MaterialTree>;
 
 struct Value {
   TypeId type = TypeTable::kPoison;
-  std::vector<Ref> refs;     ///< scalars: one; complex: real part, imaginary part
+  ShortList<Ref, 2> refs;    ///< scalars: one; complex: real part, imaginary part
   std::vector<Value> parts;  ///< arrays and structures
   MaterialPtr material;
   std::shared_ptr<const FunctionValue> function;

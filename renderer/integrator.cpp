@@ -123,9 +123,12 @@ void Integrator::start(const PixelSample& s, FilmSample& point) {
   const int i = int(paths_.size());
   Path& p = paths_.emplace_back();
   p.sampler = Sampler(world_.seed, s.x, s.y, std::uint64_t(s.sample), world_.generator);
-  p.cluster = sample_cluster(cluster_number(p.sampler(kWavelength)));
-  point.x = s.x + double(p.sampler(kFilmX));
-  point.y = s.y + double(p.sampler(kFilmY));
+  const std::array<float, 4> u = p.sampler.first();
+  const int wavelengths = wavelengths_of(world_.estimator);
+  p.cluster = sample_cluster(cluster_number(u[kWavelength], wavelengths), wavelengths);
+  p.first_part = u[kFirstPart];
+  point.x = s.x + double(u[kFilmX]);
+  point.y = s.y + double(u[kFilmY]);
   point.number = std::uint32_t(s.sample);
   views_.push_back({&p.cluster, &p.sampler, &p.radiance, world_.camera.pixel_angle()});
   now_.push_back(camera_flight(world_, i, p.sampler, point.x, point.y));
@@ -247,15 +250,17 @@ void Integrator::scatter(const Vertex& v, const Scatterer& s) {
   if (p.depth > world_.max_depth) return;
   if (world_.lights.any() && s.can_connect()) connect(v, s);
 
-  const auto u = [&](BounceCoordinate c) { return p.sampler(coordinate_of(bounce, c)); };
-  const auto sampled = s.sample(v.point, u(kLobe), u(kDirectionU), u(kDirectionV));
+  const auto pair = [&](BouncePair b) { return p.sampler.pair(pair_of_bounce(bounce, b)); };
+  const auto [direction_u, direction_v] = pair(kDirection);
+  const auto [part, roulette] = bounce > 0 ? pair(kChoices) : std::array<float, 2>{p.first_part, 0};
+  const auto sampled = s.sample(v.point, part, direction_u, direction_v);
   if (!sampled) return;
   Flight f = *v.from;
   // The same vertex lit by a light drawn with density 1 has the density of the path up to here.
   f.carried.light_pdf = sampled->specular ? Spectrumf(0.0f) : v.from->carried.pdf;
   f.carried.happened(sampled->f, sampled->pdf);
   f.carried.rescale();
-  if (!survives(p, f.carried, bounce)) return;
+  if (!survives(f.carried, p.depth, roulette)) return;
   if (s.medium) {
     f.origin = Vec3f(v.point.surface.position);
   } else {
@@ -275,10 +280,9 @@ void Integrator::scatter(const Vertex& v, const Scatterer& s) {
 /// Draws a light and a direction to it, and makes the shadow ray; thesis (4.15).
 void Integrator::connect(const Vertex& v, const Scatterer& s) {
   const Path& p = paths_[v.from->path];
-  const int bounce = p.depth - 1;
+  const auto [light_u, light_v] = p.sampler.pair(pair_of_bounce(p.depth - 1, kLight));
   const Vec3d from = v.point.surface.position;
-  LightSample light = world_.lights.sample(from, p.sampler(coordinate_of(bounce, kLightU)),
-                                           p.sampler(coordinate_of(bounce, kLightV)));
+  const LightSample light = world_.lights.sample(from, light_u, light_v);
   if (!(light.pdf > 0)) return;
   Flight f = *v.from;
   if (!s.medium) follow(f, v, light.direction);
@@ -329,12 +333,12 @@ void Integrator::send_shadow_rays() {
 
 /// Russian roulette by the mean contribution that the path still carries. It is the same whatever
 /// wavelength is the hero, so the spectral weights do not see it.
-bool Integrator::survives(Path& p, Carried& c, int bounce) {
+bool Integrator::survives(Carried& c, int depth, float u) {
   const float carried = c.beta.sum() / c.pdf.sum();
   if (!(carried > 0)) return false;
-  if (bounce + 1 < kFirstRoulette) return true;
+  if (depth < kFirstRoulette) return true;
   const float q = std::min(1.0f, carried / kSafeContribution);
-  if (p.sampler(coordinate_of(bounce, kRoulette)) >= q) return false;
+  if (u >= q) return false;
   c.beta *= 1 / q;
   return true;
 }

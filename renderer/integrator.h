@@ -33,12 +33,13 @@ class Integrator {
   struct Path {
     Sampler sampler;
     Cluster cluster;
-    Spectrumf radiance;   ///< that the path has met
-    Spectrumf lit;        ///< that shadow rays have found
-    bool asks = false;    ///< a shadow ray is on its way: the next vertex waits for it, so that
-                          ///< sums are made in one order
-    float travelled = 0;  ///< m
-    int depth = 0;        ///< scattering events so far
+    float first_part = 0;  ///< drawn with the place on the film
+    Spectrumf radiance;    ///< that the path has met
+    Spectrumf lit;         ///< that shadow rays have found
+    bool asks = false;     ///< a shadow ray is on its way: the next vertex waits for it, so that
+                           ///< sums are made in one order
+    float travelled = 0;   ///< m
+    int depth = 0;         ///< scattering events so far
   };
   /// A point of a path where it is scattered.
   struct Vertex {
@@ -74,7 +75,7 @@ class Integrator {
   void connect(const Vertex& v, const Scatterer& s);
   void ask_emitters();
   void send_shadow_rays();
-  bool survives(Path& p, Carried& c, int bounce);
+  static bool survives(Carried& c, int depth, float u);
   void add_emission(const Vertex& v, const Spectrumf& emitted);
 
   const World& world_;

@@ -79,10 +79,11 @@ class Gaze {
       const int x = x0 + i / samples_;
       Look& l = looks_[i];
       l.sampler = Sampler(world_.seed, x, y, std::uint64_t(i % samples_));
-      l.cluster = sample_cluster(l.sampler(kWavelength));
+      const std::array<float, 4> u = l.sampler.first();
+      l.cluster = sample_cluster(u[kWavelength]);
       views_.push_back({&l.cluster, &l.sampler, &l.radiance, world_.camera.pixel_angle()});
-      rays_.push_back(camera_flight(world_, i, l.sampler, x + double(l.sampler(kFilmX)),
-                                    y + double(l.sampler(kFilmY))));
+      rays_.push_back(
+          camera_flight(world_, i, l.sampler, x + double(u[kFilmX]), y + double(u[kFilmY])));
     }
   }
 

@@ -18,23 +18,11 @@ class Profile final : public vm::Image {
 
   void look_up(vm::ImageAsk ask, const float* const* in, float* const* out,
                int lanes) const override {
-    const bool slope = ask == vm::ImageAsk::NumberSlope || ask == vm::ImageAsk::ColourSlope;
-    const int results = vm::result_count(ask);
-    for (int i = 0; i < lanes; ++i) {
-      const float u = in[0][i], v = in[1][i];
-      float values[2] = {0, 0};
-      if (std::isfinite(u) && std::isfinite(v) && v >= 0 && v <= 1) {
-        const double h = 360.0 * u, t = 180.0 * v;
-        if (slope) {
-          const auto s = photometry_.slope(h, t);
-          values[0] = float(s.horizontal * 360);
-          values[1] = float(s.vertical * 180);
-        } else {
-          values[0] = values[1] = float(photometry_.intensity(h, t));
-        }
-      }
-      for (int k = 0; k < results; ++k) out[k][i] = values[k % 2];
-    }
+    run(ask, in, out, lanes);
+  }
+  void look_up64(vm::ImageAsk ask, const double* const* in, double* const* out,
+                 int lanes) const override {
+    run(ask, in, out, lanes);
   }
 
   std::optional<double> number(std::string_view name) const override {
@@ -56,6 +44,26 @@ class Profile final : public vm::Image {
   std::vector<std::string> files() const override { return {file_}; }
 
  private:
+  template <class R>
+  void run(vm::ImageAsk ask, const R* const* in, R* const* out, int lanes) const {
+    const int results = vm::result_count(ask);
+    for (int i = 0; i < lanes; ++i) {
+      const R u = in[0][i], v = in[1][i];
+      R values[2] = {0, 0};
+      if (std::isfinite(u) && std::isfinite(v) && v >= 0 && v <= 1) {
+        const double h = 360.0 * u, t = 180.0 * v;
+        if (vm::is_slope(ask)) {
+          const auto s = photometry_.slope(h, t);
+          values[0] = R(s.horizontal * 360);
+          values[1] = R(s.vertical * 180);
+        } else {
+          values[0] = values[1] = R(photometry_.intensity(h, t));
+        }
+      }
+      for (int k = 0; k < results; ++k) out[k][i] = values[k % 2];
+    }
+  }
+
   materials::Photometry photometry_;
   std::string file_;
 };

@@ -6,11 +6,17 @@
 /// thesis 6.1.1. Nothing owns a random state, so any sample of any pixel replays alone, on any
 /// thread and in any order.
 ///
-/// Coordinates 0 to 3 are a point of a (1, 4)-sequence, Owen-scrambled for each pixel, or what
-/// `Generator` puts in its place; further ones are hashed. Who uses which: 0, 1 film; 2
-/// wavelengths; 3 the light that the first vertex is lit by; 4, 5 lens; from `first_of_bounce(b)`
-/// on those of the b-th scattering event.
+/// Coordinates 0 to 3 are point `sample` of a (1, 4)-sequence, Owen-scrambled for each pixel, or
+/// what `Generator` puts in its place. All further ones come in pairs, each of a (0, 2)-sequence
+/// that is scrambled likewise. Each pair takes the points in an order of its own, shuffled such
+/// that each 2^k points in a row stay together (Burley 2020, "Practical Hash-based Owen
+/// Scrambling"): samples are stratified within a pair, and pairs are independent of each other.
+/// `random` and `unscrambled` hash them instead. Who uses which: 0, 1 film; 2 wavelengths; 3 the
+/// part of a material that the first vertex scatters by; 4, 5 lens; from `pair_of_bounce` on those
+/// of the scattering events.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "base/hash.h"
@@ -39,7 +45,10 @@ class Sampler {
         sample_(sample),
         generator_(generator) {}
 
-  /// In [0, 1): never 1, also after rounding to float.
+  /// Coordinates 0 to 3. All numbers are in [0, 1): never 1, also after rounding to float.
+  std::array<float, 4> first() const;
+  /// Coordinates 2 `number` and the next. \pre number >= 2
+  std::array<float, 2> pair(int number) const;
   float operator()(int coordinate) const;
 
   /// A hashed number for events that a path has any number of (steps through media): `stream`
@@ -51,24 +60,18 @@ class Sampler {
   Generator generator_ = Generator::Niederreiter;
 };
 
-/// What the coordinates of a scattering event are for.
-enum BounceCoordinate : int {
-  kLightU,
-  kLightV,
-  kLobe,
-  kDirectionU,
-  kDirectionV,
-  kRoulette,
-  kCoordinatesOfBounce
-};
+/// What the first four are for, and which pairs.
+enum : int { kFilmX, kFilmY, kWavelength, kFirstPart };
+enum : int { kLensPair = 2, kFirstBounce };
 
-inline constexpr int kFilmX = 0, kFilmY = 1, kWavelength = 2, kFirstLight = 3, kLensU = 4,
-                     kLensV = 5, kFirstBounce = 6;
+/// Pairs of a scattering event: places on a light, directions, and choices, which are of a part of
+/// a material and of Russian roulette. The first event takes its part from `kFirstPart`: whether a
+/// lamp's reflection is met depends on it and on the place on the film together.
+enum BouncePair : int { kLight, kDirection, kChoices, kPairsOfBounce };
 
-/// `bounce` counts from 0. The first choice of a light gets the last coordinate of the sequence.
-constexpr int coordinate_of(int bounce, BounceCoordinate c) {
-  if (bounce == 0 && c == kLightU) return kFirstLight;
-  return kFirstBounce + bounce * kCoordinatesOfBounce + c;
+/// `bounce` counts from 0.
+constexpr int pair_of_bounce(int bounce, BouncePair p) {
+  return kFirstBounce + bounce * kPairsOfBounce + p;
 }
 
 }  // namespace mms::renderer

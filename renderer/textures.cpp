@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/textures.h"
 
-#include <OpenImageIO/imagecache.h>
-#include <OpenImageIO/texture.h>
-
-#ifdef __SANITIZE_ADDRESS__
-#include <sanitizer/lsan_interface.h>
-#endif
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -17,6 +10,7 @@
 
 #include "renderer/profile.h"
 #include "renderer/texel_bounds.h"
+#include "renderer/texel_lookup.h"
 #include "renderer/texels.h"
 #include "vm/interval.h"
 
@@ -30,83 +24,42 @@ using vm::ImageUse;
 constexpr std::string_view kUdim = "<UDIM>";
 constexpr int kFirstTile = 1001, kTilesInRow = 10;
 
-/// The texture system and its cache of tiles: pictures share it and keep it alive.
-class System {
- public:
-  explicit System(double megabytes) : cache_(OIIO::ImageCache::create(false)) {
-    cache_->attribute("max_memory_MB", float(megabytes));
-    cache_->attribute("autotile", 64);
-    cache_->attribute("automip", 1);
-    cache_->attribute("unassociatedalpha", 1);
-    textures_ = OIIO::TextureSystem::create(false, cache_);
-  }
-  ~System() {
-    // OpenImageIO 2.4 deletes a texture system by a base that has no virtual destructor: a few
-    // hundred bytes stay behind, and the address sanitizer stops there.
-#ifdef __SANITIZE_ADDRESS__
-    __lsan_ignore_object(textures_);
-#else
-    OIIO::TextureSystem::destroy(textures_);
-#endif
-    OIIO::ImageCache::destroy(cache_);
-  }
-  System(const System&) = delete;
-  System& operator=(const System&) = delete;
-
-  OIIO::TextureSystem& textures() const { return *textures_; }
-  OIIO::ImageCache& cache() const { return *cache_; }
-
- private:
-  OIIO::ImageCache* cache_;
-  OIIO::TextureSystem* textures_;
-};
-
 /// A tile of a picture, and its place: (0, 0) is all of a picture without tiles.
 struct Tile {
   TexelFile file;
-  OIIO::TextureSystem::TextureHandle* handle = nullptr;
+  TexelPyramid pyramid;
   std::shared_ptr<const Packed> packed;  ///< null: as the file has it
 };
 
-OIIO::TextureOpt::InterpMode interpolation(const std::string& word) {
-  if (word == "nearest") return OIIO::TextureOpt::InterpClosest;
-  if (word == "bilinear") return OIIO::TextureOpt::InterpBilinear;
-  return word == "bicubic" ? OIIO::TextureOpt::InterpBicubic : OIIO::TextureOpt::InterpSmartBicubic;
+TexelFilter filter_of(const std::string& word) {
+  if (word == "nearest") return TexelFilter::Nearest;
+  if (word == "bilinear") return TexelFilter::Bilinear;
+  return word == "bicubic" ? TexelFilter::Bicubic : TexelFilter::Smart;
 }
 
-OIIO::TextureOpt::Wrap wrapping(const std::string& word) {
-  if (word == "mirror") return OIIO::TextureOpt::WrapMirror;
-  if (word == "clamp") return OIIO::TextureOpt::WrapClamp;
-  return word == "black" ? OIIO::TextureOpt::WrapBlack : OIIO::TextureOpt::WrapPeriodic;
+TexelWrap wrap_of(const std::string& word) {
+  if (word == "mirror") return TexelWrap::Mirror;
+  if (word == "clamp") return TexelWrap::Clamp;
+  return word == "black" ? TexelWrap::Black : TexelWrap::Repeat;
 }
 
 class Texture final : public vm::Image {
  public:
-  Texture(std::shared_ptr<const System> system, const ImageUse& use,
+  Texture(std::shared_ptr<const TexelCache> cache, const ImageUse& use,
           std::map<std::pair<int, int>, Tile> tiles, bool tiled, int channel)
-      : system_(std::move(system)), tiles_(std::move(tiles)), tiled_(tiled), channel_(channel) {
-    options_.interpmode = interpolation(use.filter);
-    options_.swrap = options_.twrap = tiled ? OIIO::TextureOpt::WrapClamp : wrapping(use.wrap);
-    options_.missingcolor = kMissing;
-  }
+      : cache_(std::move(cache)),
+        tiles_(std::move(tiles)),
+        tiled_(tiled),
+        channel_(channel),
+        filter_(filter_of(use.filter)),
+        wrap_(tiled ? TexelWrap::Clamp : wrap_of(use.wrap)) {}
 
   void look_up(ImageAsk ask, const float* const* in, float* const* out, int lanes) const override {
-    OIIO::TextureSystem::Perthread* thread = system_->textures().get_perthread_info();
-    OIIO::TextureOpt options = options_;
-    const int results = vm::result_count(ask);
-    float last[vm::kImageArguments];
-    for (int i = 0; i < lanes; ++i) {
-      float at[vm::kImageArguments];
-      for (int k = 0; k < vm::kImageArguments; ++k) at[k] = in[k][i];
-      if (i > 0 && std::equal(at, at + vm::kImageArguments, last)) {  // lanes that only fill up
-        for (int k = 0; k < results; ++k) out[k][i] = out[k][i - 1];
-        continue;
-      }
-      std::copy_n(at, vm::kImageArguments, last);
-      float values[vm::result_count(ImageAsk::ColourSlope)] = {};
-      one(ask, options, thread, at, values);
-      for (int k = 0; k < results; ++k) out[k][i] = values[k];
-    }
+    run(ask, in, out, lanes);
+  }
+  void look_up64(ImageAsk ask, const double* const* in, double* const* out,
+                 int lanes) const override {
+    run(ask, in, out, lanes);
   }
 
   std::optional<double> number(std::string_view name) const override {
@@ -162,25 +115,27 @@ class Texture final : public vm::Image {
   /// as far apart as any two; beside a black border there is 0.
   double jump(const Tile& tile, const TexelBounds& b) const {
     const double most = std::max(std::abs(b.low()), std::abs(b.high()));
-    const double black = options_.swrap == OIIO::TextureOpt::WrapBlack ? most : 0;
+    const bool bordered = wrap_ == TexelWrap::Black || tile.pyramid.cropped();
+    const double black = bordered ? most : 0;
     const double packed = tile.packed ? b.high() - b.low() + 2 * Packed::kRounding * most : 0;
     return std::max(black, packed);
   }
 
   /// Means of texels are no steeper than these change, whatever the pixel.
   void enclose_slopes(ImageAsk ask, vm::Interval* out) const {
-    constexpr double kSlack = 1 + 1e-5;  // for differences of floats
+    constexpr double kMade = 0x1p-20;  // of levels made in float: two texels of 8 roundings
     double u = 0, v = 0;
     auto b = bounds().begin();
     for (const auto& [place, tile] : tiles_) {
       const double far = b->known() ? jump(tile, *b) : vm::Interval::kInf;
-      u = std::max({u, b->slope_u(), far * tile.file.width});
-      v = std::max({v, b->slope_v(), far * tile.file.height});
+      const double made = kMade * std::max(std::abs(b->low()), std::abs(b->high()));
+      u = std::max(u, std::max(b->slope_u(), far * tile.file.width) + made * tile.file.width);
+      v = std::max(v, std::max(b->slope_v(), far * tile.file.height) + made * tile.file.height);
       ++b;
     }
-    if (options_.interpmode == OIIO::TextureOpt::InterpClosest) u = v = 0;
+    if (filter_ == TexelFilter::Nearest) u = v = 0;
     for (int k = 0; k < vm::result_count(ask); ++k) {
-      const double most = kSlack * (k % 2 ? v : u);
+      const double most = k % 2 ? v : u;
       out[k] = {-most, most, false};
     }
   }
@@ -196,9 +151,9 @@ class Texture final : public vm::Image {
     const bool outside = first < 0 || last >= count;
     if (!outside) return {int(first), int(last), false};
     const double round = std::floor(first / count) * count;
-    if (options_.swrap == OIIO::TextureOpt::WrapPeriodic && last - round < count)
+    if (wrap_ == TexelWrap::Repeat && last - round < count)
       return {int(first - round), int(last - round), false};
-    if (options_.swrap != OIIO::TextureOpt::WrapClamp) return {0, count - 1, true};
+    if (wrap_ != TexelWrap::Clamp) return {0, count - 1, true};
     const double most = count - 1;
     return {int(std::clamp(first, 0.0, most)), int(std::clamp(last, 0.0, most)), true};
   }
@@ -213,7 +168,8 @@ class Texture final : public vm::Image {
     for (int k = 0; k < 2; ++k)
       if (in[k].nan || !(in[k].magnitude() * std::max(file.width, file.height) < kMost))
         return std::nullopt;
-    if (tiled_ || !bounds()[0].known()) return std::nullopt;
+    if (tiled_ || tiles_.begin()->second.pyramid.cropped() || !bounds()[0].known())
+      return std::nullopt;
     const double w = file.width, h = file.height;
     const Stretch x = stretch(in[0].lo * w - 0.5, in[0].hi * w - 0.5, file.width);
     const Stretch y = stretch((1 - in[1].hi) * h - 0.5, (1 - in[1].lo) * h - 0.5, file.height);
@@ -223,7 +179,7 @@ class Texture final : public vm::Image {
       const double slack = Packed::kRounding * r.magnitude();
       r = {r.lo - slack, r.hi + slack, false};
     }
-    if (options_.swrap == OIIO::TextureOpt::WrapBlack && (x.outside || y.outside))
+    if (wrap_ == TexelWrap::Black && (x.outside || y.outside))
       r = vm::join(r, vm::Interval::point(0));
     return r;
   }
@@ -238,56 +194,62 @@ class Texture final : public vm::Image {
     return sum;
   }
 
-  static constexpr float kMissing[4] = {1, 0, 1, 1};
-  static constexpr float kLuminance[3] = {0.2126f, 0.7152f, 0.0722f};  // ITU-R BT.709
+  template <class R>
+  void run(ImageAsk ask, const R* const* in, R* const* out, int lanes) const {
+    TexelReader reader(*cache_);
+    const int results = vm::result_count(ask);
+    R last[vm::kImageArguments];
+    for (int i = 0; i < lanes; ++i) {
+      R at[vm::kImageArguments];
+      for (int k = 0; k < vm::kImageArguments; ++k) at[k] = in[k][i];
+      if (i > 0 && std::equal(at, at + vm::kImageArguments, last)) {  // lanes that only fill up
+        for (int k = 0; k < results; ++k) out[k][i] = out[k][i - 1];
+        continue;
+      }
+      std::copy_n(at, vm::kImageArguments, last);
+      R values[vm::result_count(ImageAsk::ColourSlope)] = {};
+      one(reader, ask, at, values);
+      for (int k = 0; k < results; ++k) out[k][i] = values[k];
+    }
+  }
 
-  /// One point. OpenImageIO counts rows from the top, so v is turned over.
-  void one(ImageAsk ask, OIIO::TextureOpt& options, OIIO::TextureSystem::Perthread* thread,
-           const float* at, float* values) const {
-    if (!std::all_of(at, at + vm::kImageArguments, [](float x) { return std::isfinite(x); }))
-      return;
-    float s = at[0], t = at[1];
-    const Tile* tile = find(s, t);
+  /// One point.
+  template <class R>
+  void one(TexelReader& reader, ImageAsk ask, R* at, R* values) const {
+    if (!std::all_of(at, at + vm::kImageArguments, [](R x) { return std::isfinite(x); })) return;
+    const Tile* const tile = find(at[0], at[1]);
     if (!tile) return;
-    const int channels = tile->file.channels;
     const bool colour = ask == ImageAsk::Colour || ask == ImageAsk::ColourSlope;
-    const bool slope = ask == ImageAsk::NumberSlope || ask == ImageAsk::ColourSlope;
-    // OpenImageIO leaves the slopes of single texels as they were.
-    const bool steep = slope && options.interpmode != OIIO::TextureOpt::InterpClosest;
-    const bool all = (colour || channel_ < 0) && channels >= 3;
-    options.firstchannel = colour || channel_ < 0 ? 0 : channel_;
-    options.sblur = std::abs(at[6]);
-    options.tblur = std::abs(at[7]);
-    float rgb[4] = {}, ds[4] = {}, dt[4] = {};
-    system_->textures().texture(tile->handle, thread, options, s, 1 - t, at[2], -at[3], at[4],
-                                -at[5], all ? 3 : 1, rgb, steep ? ds : nullptr,
-                                steep ? dt : nullptr);
-    for (float& d : dt) d = -d;
+    const bool all = (colour || channel_ < 0) && tile->file.channels >= 3;
+    TexelSums<R> sums;
+    TexelLookup<R> look_up(reader, tile->pyramid, filter_, wrap_,
+                           colour || channel_ < 0 ? 0 : channel_, all ? 3 : 1, vm::is_slope(ask));
+    if (!look_up.run(at, sums)) sums = {{1, 0, 1}, {}, {}};  // magenta
     if (!all)
-      for (float* v : {rgb, ds, dt}) v[1] = v[2] = v[0];
-    const auto weighed = [&](const float* v) {
-      if (!all) return v[0];
-      return kLuminance[0] * v[0] + kLuminance[1] * v[1] + kLuminance[2] * v[2];
+      for (R* v : {sums.value, sums.u, sums.v}) v[1] = v[2] = v[0];
+    const auto weighed = [&](const R* v) {  // ITU-R BT.709
+      return all ? R(0.2126) * v[0] + R(0.7152) * v[1] + R(0.0722) * v[2] : v[0];
     };
     if (ask == ImageAsk::Colour) {
-      std::copy_n(rgb, 3, values);
+      std::copy_n(sums.value, 3, values);
     } else if (ask == ImageAsk::Number) {
-      values[0] = weighed(rgb);
+      values[0] = weighed(sums.value);
     } else if (ask == ImageAsk::NumberSlope) {
-      values[0] = weighed(ds);
-      values[1] = weighed(dt);
+      values[0] = weighed(sums.u);
+      values[1] = weighed(sums.v);
     } else {
       for (int k = 0; k < 3; ++k) {
-        values[2 * k] = ds[k];
-        values[2 * k + 1] = dt[k];
+        values[2 * k] = sums.u[k];
+        values[2 * k + 1] = sums.v[k];
       }
     }
   }
 
   /// The tile that holds the point, whose place in it is left in `s` and `t`; null outside.
-  const Tile* find(float& s, float& t) const {
+  template <class R>
+  const Tile* find(R& s, R& t) const {
     if (!tiled_) return &tiles_.begin()->second;
-    const float column = std::floor(s), row = std::floor(t);
+    const R column = std::floor(s), row = std::floor(t);
     if (!(column >= 0 && column < kTilesInRow && row >= 0 && row < 1000)) return nullptr;
     const auto it = tiles_.find({int(column), int(row)});
     if (it == tiles_.end()) return nullptr;
@@ -296,11 +258,12 @@ class Texture final : public vm::Image {
     return &it->second;
   }
 
-  std::shared_ptr<const System> system_;
+  std::shared_ptr<const TexelCache> cache_;
   std::map<std::pair<int, int>, Tile> tiles_;
   bool tiled_;
   int channel_;  ///< of a number; -1: luminance, or the only one
-  OIIO::TextureOpt options_;
+  TexelFilter filter_;
+  TexelWrap wrap_;
   mutable std::once_flag bounded_;
   mutable std::vector<TexelBounds> bounds_;
   mutable std::once_flag ranged_;
@@ -334,7 +297,7 @@ std::map<std::pair<int, int>, std::string> find_tiles(const std::string& pattern
 
 class Textures final : public vm::ImageSource {
  public:
-  explicit Textures(double megabytes) : system_(std::make_shared<const System>(megabytes)) {}
+  explicit Textures(double megabytes) : cache_(std::make_shared<const TexelCache>(megabytes)) {}
 
   Result<std::shared_ptr<const vm::Image>> open(const ImageUse& use) override {
     if (is_profile(use.file)) return open_profile(use.file);
@@ -356,16 +319,16 @@ class Textures final : public vm::ImageSource {
         }
         packed = kept;
       }
-      const OIIO::ustring name(packed ? add_packed(&system_->cache(), *file, *packed)
-                                      : add_texels(&system_->cache(), *file));
-      tiles[place] = {*file, system_->textures().get_texture_handle(name), packed};
-      if (!system_->textures().good(tiles[place].handle))
-        return Error{path, "cannot be read: " + system_->textures().geterror(), ""};
+      auto pyramid =
+          TexelPyramid::open(*cache_, packed ? add_packed(cache_->handle(), *file, *packed)
+                                             : add_texels(cache_->handle(), *file));
+      if (!pyramid) return Error{path, pyramid.error().what, ""};
+      tiles[place] = {*file, std::move(*pyramid), packed};
     }
     const auto channel = channel_of(use, tiles.begin()->second.file);
     if (!channel) return channel.error();
     return std::shared_ptr<const vm::Image>(
-        std::make_shared<Texture>(system_, use, std::move(tiles), tiled, *channel));
+        std::make_shared<Texture>(cache_, use, std::move(tiles), tiled, *channel));
   }
 
  private:
@@ -380,7 +343,7 @@ class Textures final : public vm::ImageSource {
     return Error{use.file, "has no channel `" + use.channel + "`", "its channels are " + names};
   }
 
-  std::shared_ptr<const System> system_;
+  std::shared_ptr<const TexelCache> cache_;
   std::map<std::string, std::shared_ptr<const Packed>> packed_;  ///< by path and space
 };
 

@@ -2,7 +2,7 @@
 #pragma once
 
 /// \file
-/// Pictures for scripts, through OpenImageIO's texture system: files of any kind it reads, tiled
+/// Pictures for scripts, through OpenImageIO's image cache: files of any kind it reads, tiled
 /// and mip-mapped (.tx) or not, held in memory tile by tile within a budget.
 
 #include <memory>

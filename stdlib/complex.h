@@ -195,33 +195,9 @@ MMS_INLINE Complex atanh_complex(Complex z) {
   return {known ? with_sign(re, z.re) : kNan<double>, known ? with_sign(im, z.im) : kNan<double>};
 }
 
-// MMS_COMPLEX(Name, float body, double body): a kernel of one complex number.
-#define MMS_COMPLEX(Name, float_body, double_body)                    \
-  template <class R>                                                  \
-  struct Name {                                                       \
-    [[gnu::always_inline]] static std::array<R, 2> eval(R re, R im) { \
-      const Complex z = {re, im};                                     \
-      if constexpr (kDouble<R>)                                       \
-        return pair<R>(double_body);                                  \
-      else                                                            \
-        return pair<R>(float_body);                                   \
-    }                                                                 \
-  };
-MMS_COMPLEX(ComplexLog, log_complex(z), of_libm(__builtin_clog(libm(z))))
-MMS_COMPLEX(ComplexSqrt, sqrt_complex(z), of_libm(__builtin_csqrt(libm(z))))
-MMS_COMPLEX(ComplexAsin, asin_complex(z), of_libm(__builtin_casin(libm(z))))
-MMS_COMPLEX(ComplexAcos, acos_complex(z), of_libm(__builtin_cacos(libm(z))))
-MMS_COMPLEX(ComplexAtan, turned_right(atanh_complex(turned_left(z))),
-            of_libm(__builtin_catan(libm(z))))
-MMS_COMPLEX(ComplexAsinh, turned_right(asin_complex(turned_left(z))),
-            of_libm(__builtin_casinh(libm(z))))
-MMS_COMPLEX(ComplexAcosh, acosh_complex(z), of_libm(__builtin_cacosh(libm(z))))
-MMS_COMPLEX(ComplexAtanh, atanh_complex(z), of_libm(__builtin_catanh(libm(z))))
-#undef MMS_COMPLEX
-
-// MMS_TURNING(Name, angle, float body over a Reduction, double body): the same, where one part is
-// an angle.
-#define MMS_TURNING(Name, angle, float_body, double_body)                                   \
+// MMS_COMPLEX(Name, angle, float body over a Reduction, double body): a kernel of one complex
+// number. `angle` is the part of it that is one, 0 where none is.
+#define MMS_COMPLEX(Name, angle, float_body, double_body)                                   \
   template <class R>                                                                        \
   struct Name {                                                                             \
     template <class Reduction>                                                              \
@@ -236,21 +212,31 @@ MMS_COMPLEX(ComplexAtanh, atanh_complex(z), of_libm(__builtin_catanh(libm(z))))
       return body<Usual>(re, im);                                                           \
     }                                                                                       \
     [[gnu::always_inline]] static bool rare([[maybe_unused]] R re, [[maybe_unused]] R im) { \
-      return needs_large(angle);                                                            \
+      return needs_large(R(angle));                                                         \
     }                                                                                       \
     static std::array<R, 2> eval_rare(R re, R im) { return body<Large>(re, im); }           \
   };
-MMS_TURNING(ComplexExp, im, exp_complex<Reduction>(z), of_libm(__builtin_cexp(libm(z))))
-MMS_TURNING(ComplexSin, re, turned_right(sinh_complex<Reduction>(turned_left(z))),
+MMS_COMPLEX(ComplexLog, 0, log_complex(z), of_libm(__builtin_clog(libm(z))))
+MMS_COMPLEX(ComplexSqrt, 0, sqrt_complex(z), of_libm(__builtin_csqrt(libm(z))))
+MMS_COMPLEX(ComplexAsin, 0, asin_complex(z), of_libm(__builtin_casin(libm(z))))
+MMS_COMPLEX(ComplexAcos, 0, acos_complex(z), of_libm(__builtin_cacos(libm(z))))
+MMS_COMPLEX(ComplexAtan, 0, turned_right(atanh_complex(turned_left(z))),
+            of_libm(__builtin_catan(libm(z))))
+MMS_COMPLEX(ComplexAsinh, 0, turned_right(asin_complex(turned_left(z))),
+            of_libm(__builtin_casinh(libm(z))))
+MMS_COMPLEX(ComplexAcosh, 0, acosh_complex(z), of_libm(__builtin_cacosh(libm(z))))
+MMS_COMPLEX(ComplexAtanh, 0, atanh_complex(z), of_libm(__builtin_catanh(libm(z))))
+MMS_COMPLEX(ComplexExp, im, exp_complex<Reduction>(z), of_libm(__builtin_cexp(libm(z))))
+MMS_COMPLEX(ComplexSin, re, turned_right(sinh_complex<Reduction>(turned_left(z))),
             of_libm(__builtin_csin(libm(z))))
-MMS_TURNING(ComplexCos, re, cosh_complex<Reduction>(turned_left(z)),
+MMS_COMPLEX(ComplexCos, re, cosh_complex<Reduction>(turned_left(z)),
             of_libm(__builtin_ccos(libm(z))))
-MMS_TURNING(ComplexTan, re, turned_right(tanh_complex<Reduction>(turned_left(z))),
+MMS_COMPLEX(ComplexTan, re, turned_right(tanh_complex<Reduction>(turned_left(z))),
             of_libm(__builtin_ctan(libm(z))))
-MMS_TURNING(ComplexSinh, im, sinh_complex<Reduction>(z), of_libm(__builtin_csinh(libm(z))))
-MMS_TURNING(ComplexCosh, im, cosh_complex<Reduction>(z), of_libm(__builtin_ccosh(libm(z))))
-MMS_TURNING(ComplexTanh, im, tanh_complex<Reduction>(z), of_libm(__builtin_ctanh(libm(z))))
-#undef MMS_TURNING
+MMS_COMPLEX(ComplexSinh, im, sinh_complex<Reduction>(z), of_libm(__builtin_csinh(libm(z))))
+MMS_COMPLEX(ComplexCosh, im, cosh_complex<Reduction>(z), of_libm(__builtin_ccosh(libm(z))))
+MMS_COMPLEX(ComplexTanh, im, tanh_complex<Reduction>(z), of_libm(__builtin_ctanh(libm(z))))
+#undef MMS_COMPLEX
 
 template <class R>
 struct ComplexPow {

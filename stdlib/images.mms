@@ -3,8 +3,11 @@
 // right one. Names, and the words for filter, wrap, space, channel and storage, are known at link.
 // What the pixel covers is filtered away, exactly as `$footprint` says, `width` times as wide
 // (0: not at all) and wider by `blur`, a part of the picture: as much along both axes, or [along u,
-// along v]. `storage` is how it is kept in memory: `raw`, or `compressed`, which is smaller, slower and
-// not exact.
+// along v]. The pixel is an ellipse: up to 31 probes along its longer axis look at texels as wide as
+// its shorter one, of levels of half the size each that the file has or that are made. Points and
+// round pixels of square pictures come out as by OpenImageIO's texture calls; long pixels have other
+// probes than there, and blurs add to the pixel as squares. `storage` is how the picture is kept in
+// memory: `raw`, or `compressed`, which is smaller, slower and not exact.
 
 /// How `at` changes across the pixel along its x axis (column 0) or its y axis.
 /// >>> image_step([0.5, 0.5], 0, 0)

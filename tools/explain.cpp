@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// mms explain: the page of the error index about one message.
+// mms explain: the pages of the error index about messages.
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,12 @@ namespace mms::tools {
 
 namespace {
 
-Exit explain(std::string code) {
+/// Whether `what` is meant as a script and not as a code.
+bool is_script(const std::string& what) {
+  return what == "-" || what.find_first_of("./") != std::string::npos;
+}
+
+Exit explain_code(const std::string& code, const ScriptOptions& options) {
   std::string upper = code;
   std::transform(upper.begin(), upper.end(), upper.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
@@ -29,21 +35,53 @@ Exit explain(std::string code) {
     codes.emplace_back(row.code);
   }
   const std::string near = lang::nearest(upper, codes);
-  print_error({"mms explain", fmt::format("no message has the code `{}`", code),
+  return fail(Exit::Usage,
+              {"mms explain", fmt::format("no message has the code `{}`", code),
                near.empty() ? "codes look like E0203; docs/errors.md lists them"
-                            : fmt::format("did you mean `{}`? docs/errors.md lists all", near)});
-  return Exit::Usage;
+                            : fmt::format("did you mean `{}`? docs/errors.md lists all", near)},
+              options);
+}
+
+/// The page of each message that there is to say of a script, once each.
+Exit explain_script(const std::string& file, const ScriptOptions& options) {
+  Exit exit = Exit::Ok;
+  const auto sources = read_sources({file}, options, exit);
+  if (!sources) return exit;
+  lang::Diagnostics diagnostics;
+  compile(*sources, options, diagnostics, exit);
+  print(diagnostics, options);
+  std::set<lang::Diag> explained;
+  for (const lang::Diagnostic& d : diagnostics.all())
+    if (explained.insert(d.id).second) fmt::print("{}", lang::page(lang::info(d.id)));
+  return exit;
+}
+
+Exit explain(const ScriptOptions& options) {
+  Exit worst = Exit::Ok;
+  for (const std::string& what : options.files)
+    worst = std::max(worst,
+                     is_script(what) ? explain_script(what, options) : explain_code(what, options));
+  return worst;
 }
 
 }  // namespace
 
 Verb explain_verb() {
-  auto code = std::make_shared<std::string>();
-  Verb verb{
-      "explain", "Explain a message by its code", "Examples:\n  mms explain E0203", {}, [code] {
-        return explain(*code);
-      }};
-  verb.add({"CODE", code.get(), "", "The code in brackets, as in error[E0203]", {}, true});
+  auto options = std::make_shared<ScriptOptions>();
+  Verb verb{"explain",
+            "Explain messages: by their codes, or those of scripts",
+            "Examples:\n  mms explain E0203\n  mms explain marble.mms",
+            {},
+            [options] { return explain(*options); }};
+  verb.add(
+      {"CODE",
+       &options->files,
+       "",
+       "The code in brackets, as in error[E0203]; or a script, whose messages are explained; - "
+       "is standard input",
+       {},
+       true});
+  add_script_options(verb, *options);
   return verb;
 }
 

@@ -177,12 +177,16 @@ struct BoundsMachine::State : ValueTable {
 
   /// What the picture that `in` names can give, in `out`.
   void enclose_image(ImageAsk ask) {
-    constexpr double kRounding = 4;  // ulps of weighing texels
     if (!in[0].is_point()) return;
     std::vector<const Image*> images;
     for (const ProgramImage& i : program.images) images.push_back(i.image.get());
     image_of(ask, images.data(), int(images.size()), in[0].lo).enclose(ask, &in[1], out.data());
-    for (Interval& r : out) r = reals_within(r.lo, r.hi, kRounding, r.nan);
+    for (Interval& r : out) {
+      const double most = r.magnitude(), slack = std::isfinite(most) ? kImageRounding * most : 0;
+      // Weights are positive: what spans no negative numbers gives none.
+      const double low = r.lo >= 0 ? std::max(r.lo - slack, 0.0) : r.lo - slack;
+      r = reals_within(low, r.hi + slack, 1, r.nan);
+    }
   }
 
   // Calls

@@ -11,8 +11,10 @@ namespace {
 class Magenta : public Image {
  public:
   void look_up(ImageAsk ask, const float* const*, float* const* out, int lanes) const override {
-    for (int k = 0; k < result_count(ask); ++k)
-      std::fill_n(out[k], lanes, is_slope(ask) || k == 1 ? 0.0f : 1.0f);
+    fill(ask, out, lanes);
+  }
+  void look_up64(ImageAsk ask, const double* const*, double* const* out, int lanes) const override {
+    fill(ask, out, lanes);
   }
   std::optional<double> number(std::string_view name) const override {
     if (name == "width" || name == "height") return 1;
@@ -25,8 +27,14 @@ class Magenta : public Image {
   std::vector<std::string> files() const override { return {}; }
   bool answers(ImageAsk) const override { return true; }
   void enclose(ImageAsk ask, const Interval*, Interval* out) const override {
-    for (int k = 0; k < result_count(ask); ++k)
-      out[k] = Interval::point(is_slope(ask) || k == 1 ? 0 : 1);
+    for (int k = 0; k < result_count(ask); ++k) out[k] = Interval::point(part(ask, k));
+  }
+
+ private:
+  static int part(ImageAsk ask, int k) { return is_slope(ask) || k == 1 ? 0 : 1; }
+  template <class R>
+  static void fill(ImageAsk ask, R* const* out, int lanes) {
+    for (int k = 0; k < result_count(ask); ++k) std::fill_n(out[k], lanes, R(part(ask, k)));
   }
 };
 
@@ -40,23 +48,6 @@ void look_up_run(const Image& image, ImageAsk ask, const double* const* in, doub
 }
 
 }  // namespace
-
-/// Pictures are made of floats: so is what the double machine is told of them.
-void Image::look_up64(ImageAsk ask, const double* const* in, double* const* out, int lanes) const {
-  constexpr int kChunk = 64, kMost = result_count(ImageAsk::ColourSlope);
-  float arguments[kImageArguments][kChunk], results[kMost][kChunk];
-  const float* from[kImageArguments];
-  float* to[kMost];
-  for (int k = 0; k < kImageArguments; ++k) from[k] = arguments[k];
-  for (int k = 0; k < kMost; ++k) to[k] = results[k];
-  for (int first = 0; first < lanes; first += kChunk) {
-    const int n = std::min(kChunk, lanes - first);
-    for (int k = 0; k < argument_count(ask); ++k)
-      for (int i = 0; i < n; ++i) arguments[k][i] = static_cast<float>(in[k][first + i]);
-    look_up(ask, from, to, n);
-    for (int k = 0; k < result_count(ask); ++k) std::copy_n(results[k], n, out[k] + first);
-  }
-}
 
 void Image::enclose(ImageAsk ask, const Interval*, Interval* out) const {
   double low = -Interval::kInf, high = Interval::kInf;

@@ -75,6 +75,20 @@ constexpr int argument_count(ImageAsk ask) {
   return ask == ImageAsk::Curve || ask == ImageAsk::CurveSlope ? 1 : kImageArguments;
 }
 
+/// How far a lookup in float is from one in double, at most, as a part of the largest magnitude of
+/// its texels; of a slope, of the largest difference of neighbours times columns or rows. At a
+/// point: part of a texel to 1.5 units in the last place on two axes, each worth twice the largest
+/// magnitude, and 18 roundings of weights and sums.
+inline constexpr double kImagePointError = 0x1p-19;
+/// Where the pixel covers texels: probes are up to 32 of a level away, 12 in the mean, and all of
+/// them move, by some 50 units in the last place, with the axes of the pixel.
+inline constexpr double kImagePixelError = 0x1p-13;
+
+/// How far it may be outside what its texels span, as a part of their largest magnitude: 10 roundings
+/// of weights and sums along each axis, 34 of sums over probes, 5 of levels. Of a slope too, which is
+/// a mean of differences.
+inline constexpr double kImageRounding = 0x1p-18;
+
 /// An open picture or curve. Immutable; any number of threads may ask.
 class Image {
  public:
@@ -83,9 +97,9 @@ class Image {
   /// Where an argument is not finite the results are 0.
   virtual void look_up(ImageAsk ask, const float* const* in, float* const* out,
                        int lanes) const = 0;
-  /// The same for the double machine; here in float.
+  /// The same for the double machine: reckoned in double, from what is stored.
   virtual void look_up64(ImageAsk ask, const double* const* in, double* const* out,
-                         int lanes) const;
+                         int lanes) const = 0;
   /// `width`, `height`, `channels`, `bytes` in memory, or a number that the file itself states by
   /// that name.
   virtual std::optional<double> number(std::string_view name) const = 0;

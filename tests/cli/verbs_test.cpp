@@ -116,6 +116,27 @@ TEST_CASE("explain prints the page of a code that a message showed") {
   CHECK(run.out.starts_with(code));
 }
 
+TEST_CASE("explain of a script prints its messages, and the page of each once") {
+  const Folder folder;
+  folder.write("bad.mms", "surface \"s\" bsdf = mate(0.5); emission = mate(1); end\n");
+  folder.write("good.mms", "surface s bsdf = matte(1); end\n");
+  folder.write("unused.mms", "surface s x = 1; bsdf = matte(1); end\n");
+  for (const std::string args : {"explain bad.mms", "explain - <bad.mms"}) {
+    const Outcome run = folder.bash("mms " + args);
+    CHECK(run.exit == 1);
+    CHECK(contains(run.err, "mate"));
+    const std::string code = run.err.substr(run.err.find("error[") + 6, 5);
+    CHECK(run.out == folder.mms("explain " + code).out);
+  }
+  CHECK(folder.mms("explain good.mms").out.empty());
+  CHECK(folder.mms("explain unused.mms").exit == 0);
+  CHECK(folder.mms("explain -Wno-unused unused.mms").out.empty());
+  const Outcome strict = folder.mms("explain -Werror E0203 unused.mms");
+  CHECK(strict.exit == 1);
+  CHECK(strict.out.starts_with(folder.mms("explain E0203").out));
+  CHECK(folder.mms("explain missing.mms").exit == 3);
+}
+
 TEST_CASE("eval prints values of every type") {
   CHECK(eval("'1 + 2'") == "3\n");
   CHECK(eval("'1 / 2'") == "0.5\n");

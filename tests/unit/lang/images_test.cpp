@@ -24,14 +24,11 @@ class Formula : public vm::Image {
  public:
   void look_up(vm::ImageAsk ask, const float* const* in, float* const* out,
                int lanes) const override {
-    for (int i = 0; i < lanes; ++i) {
-      const float u = in[0][i], v = in[1][i];
-      const float colour[] = {u * u / 2, v / 2, in[2][i]};
-      const float colour_slope[] = {u, 0, 0, 0.5f, 0, 0};
-      const float number[] = {u * v}, number_slope[] = {v, u};
-      const float* const answers[] = {number, number_slope, colour, colour_slope};
-      for (int k = 0; k < vm::result_count(ask); ++k) out[k][i] = answers[int(ask)][k];
-    }
+    run(ask, in, out, lanes);
+  }
+  void look_up64(vm::ImageAsk ask, const double* const* in, double* const* out,
+                 int lanes) const override {
+    run(ask, in, out, lanes);
   }
   std::optional<double> number(std::string_view name) const override {
     if (name == "width") return 7;
@@ -42,6 +39,19 @@ class Formula : public vm::Image {
     high = 0.5;
   }
   std::vector<std::string> files() const override { return {"formula.tx"}; }
+
+ private:
+  template <class R>
+  static void run(vm::ImageAsk ask, const R* const* in, R* const* out, int lanes) {
+    for (int i = 0; i < lanes; ++i) {
+      const R u = in[0][i], v = in[1][i];
+      const R colour[] = {u * u / 2, v / 2, in[2][i]};
+      const R colour_slope[] = {u, 0, 0, R(0.5), 0, 0};
+      const R number[] = {u * v}, number_slope[] = {v, u};
+      const R* const answers[] = {number, number_slope, colour, colour_slope};
+      for (int k = 0; k < vm::result_count(ask); ++k) out[k][i] = answers[int(ask)][k];
+    }
+  }
 };
 
 /// Has tiles of that name, for which no file is looked for.
@@ -196,7 +206,7 @@ TEST_CASE("images: enclosures are the picture's own range, and 0") {
   CHECK(e.lo <= 0);
   CHECK(e.lo > -1e-6);
   CHECK(e.hi >= 1);
-  CHECK(e.hi < 1 + 1e-5);
+  CHECK(e.hi < 1 + vm::kImageRounding + 1e-6);
 }
 
 TEST_CASE(

@@ -63,7 +63,7 @@ Errors of_renders(const vm::Program& program, const Scene& scene, RenderOptions 
 }
 
 /// Every integrand is that of all pixels, so chance does not even out between them as in a picture.
-constexpr double kAlike = 1.6;
+constexpr double kAlike = 1.75;
 
 }  // namespace
 

@@ -118,6 +118,40 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "any pair beyond is a (0, 2)-net of each 2^k samples, and pairs know nothing of another") {
+  for (const Generator g : {Generator::Niederreiter, Generator::Sobol})
+    for (const int pair : {4, 8, 10, 12, 40})
+      for (const std::uint64_t first : {0, 64, 1 << 20})
+        for (int a = 0; a <= 6; ++a) {
+          std::array<int, 64> count{};
+          for (std::uint64_t n = first; n < first + 64; ++n) {
+            const Sampler s(9, 4, 2, n, g);
+            const int column = int(s(pair) * float(1 << a));
+            const int row = int(s(pair + 1) * float(64 >> a));
+            ++count[std::size_t(column * (64 >> a) + row)];
+          }
+          CHECK(std::ranges::all_of(count, [](int c) { return c == 1; }));
+        }
+  // Of four samples each half gets one of 0 and 1 and one of 2 and 3: two ways to do that, which in
+  // two pairs agree half of the time. Binomial, 5 sigma: sqrt(4096) / 2 * 5 = 160.
+  for (const auto& [a, b] : {std::pair(4, 8), {8, 10}, {8, 16}}) {
+    int same = 0;
+    constexpr int kPixels = 4096;
+    for (int pixel = 0; pixel < kPixels; ++pixel) {
+      int split_a = 0, split_b = 0;
+      for (int n = 0; n < 4; ++n) {
+        const Sampler s(11, pixel, 0, std::uint64_t(n));
+        split_a = split_a << 1 | (s(a) < 0.5f);
+        split_b = split_b << 1 | (s(b) < 0.5f);
+      }
+      same += split_a == split_b || split_a == (split_b ^ 15);
+    }
+    CAPTURE(same);
+    CHECK(std::abs(same - kPixels / 2) < 160);
+  }
+}
+
 TEST_CASE("a sample replays alone, and seeds, pixels and samples differ") {
   const Sampler a(1, 2, 3, 4);
   CHECK(a(7) == Sampler(1, 2, 3, 4)(7));

@@ -14,84 +14,17 @@
 #include "renderer/picture.h"
 #include "renderer/textures.h"
 #include "tests/sanitized.h"
-#include "tests/unit/renderer/tiff.h"
+#include "tests/unit/renderer/lookups.h"
 #include "vm/interval.h"
 
 using namespace mms;
 using namespace mms::renderer;
-using testing::Texels;
-using testing::TiffNumbers;
+using namespace mms::renderer::testing;
 using vm::ImageAsk;
 using vm::ImageUse;
 namespace fs = std::filesystem;
 
 namespace {
-
-Texels random_texels(int width, int height, int channels) {
-  Texels t{width, height, channels, {}};
-  std::mt19937 random(5);
-  std::uniform_real_distribution<float> value(-1, 2);
-  for (int k = 0; k < width * height * channels; ++k) t.values.push_back(value(random));
-  return t;
-}
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / "mms_textures_test";
-  Folder() {
-    fs::remove_all(path);
-    fs::create_directories(path);
-  }
-  ~Folder() { fs::remove_all(path); }
-  std::string operator/(const std::string& name) const { return (path / name).string(); }
-
-  std::string write(const std::string& name, const Texels& t,
-                    TiffNumbers numbers = TiffNumbers::Float) const {
-    testing::write_tiff(*this / name, t, numbers);
-    return *this / name;
-  }
-};
-
-ImageUse use_of(const std::string& file) {
-  return {file, "bilinear", "repeat", "linear", "", "raw"};
-}
-
-std::shared_ptr<const vm::Image> open(const ImageUse& use) {
-  const auto source = open_textures(64);
-  auto image = source->open(use);
-  REQUIRE_MESSAGE(image, image.error().what);
-  return *image;
-}
-
-/// Where to look, and how the pixel lies.
-struct Place {
-  float u, v;
-  float across[4] = {0, 0, 0, 0};
-  float blur = 0;
-  float blur_v = blur;
-};
-
-std::vector<double> look_up(const vm::Image& image, ImageAsk ask, const Place& p) {
-  const float arguments[] = {p.u,         p.v,         p.across[0], p.across[1],
-                             p.across[2], p.across[3], p.blur,      p.blur_v};
-  float results[6];
-  const float* in[8];
-  float* out[6];
-  for (int k = 0; k < 8; ++k) in[k] = arguments + k;
-  for (int k = 0; k < 6; ++k) out[k] = results + k;
-  image.look_up(ask, in, out, 1);
-  return {results, results + vm::result_count(ask)};
-}
-
-/// The same for the double machine, at a point of a colour.
-std::vector<double> look_up64(const vm::Image& image, double u, double v) {
-  const double arguments[8] = {u, v};
-  double results[3];
-  const double* in[8];
-  double* const out[] = {results, results + 1, results + 2};
-  for (int k = 0; k < 8; ++k) in[k] = arguments + k;
-  image.look_up64(ImageAsk::Colour, in, out, 1);
-  return {results, results + 3};
-}
 
 /// Column or row `k` of `n` under a wrap mode; -1: black.
 int wrapped(int k, int n, const std::string& wrap) {
@@ -153,36 +86,41 @@ TEST_CASE("textures: every filter and wrap mode, with its slopes, is its formula
       use.filter = filter;
       use.wrap = wrap;
       const auto image = open(use);
-      double worst = 0, worst_slope = 0, worst64 = 0;
+      double worst = 0, worst_slope = 0, worst64 = 0, worst_slope64 = 0;
+      const auto keep = [](double& most, double a, double b) {
+        most = std::max(most, std::abs(a - b));
+      };
       for (int k = 0; k < 300; ++k) {
         const Place p{anywhere(random), anywhere(random)};
-        // The texel changes here, and the slope with it: where a float of u falls is rounding.
+        // The texel changes here, and the slope with it: where 12 u of doubles falls is rounding.
         const double x = p.u * 12 - 0.5, y = (1 - p.v) * 9 - 0.5;
         const double half = use.filter == "nearest" ? 0.5 : 0;
-        if (std::abs(std::remainder(x + half, 1)) < 1e-3) continue;
-        if (std::abs(std::remainder(y + half, 1)) < 1e-3) continue;
-        const auto colour = look_up(*image, ImageAsk::Colour, p);
-        const auto slope = look_up(*image, ImageAsk::ColourSlope, p);
-        const double u = double(p.u) * (1 + 0x1p-25), v = double(p.v) * (1 - 0x1p-26);
-        const auto wide = look_up64(*image, u, v);
-        for (int c = 0; c < 3; ++c) {
-          worst64 =
-              std::max(worst64, std::abs(wide[std::size_t(c)] - expected(t, c, use, u, v)[0]));
-          const auto e = expected(t, c, use, p.u, p.v);
-          worst = std::max(worst, std::abs(colour[std::size_t(c)] - e[0]));
-          for (int d = 0; d < 2; ++d)
-            worst_slope = std::max(worst_slope,
-                                   std::abs(slope[std::size_t(2 * c + d)] - e[std::size_t(1 + d)]));
+        if (std::abs(std::remainder(x + half, 1)) < 1e-12) continue;
+        if (std::abs(std::remainder(y + half, 1)) < 1e-12) continue;
+        const auto colour = look_up<float>(*image, ImageAsk::Colour, p);
+        const auto slope = look_up<float>(*image, ImageAsk::ColourSlope, p);
+        const auto colour64 = look_up<double>(*image, ImageAsk::Colour, p);
+        const auto slope64 = look_up<double>(*image, ImageAsk::ColourSlope, p);
+        for (std::size_t c = 0; c < 3; ++c) {
+          const auto e = expected(t, int(c), use, p.u, p.v);
+          keep(worst, colour[c], e[0]);
+          keep(worst64, colour64[c], e[0]);
+          for (std::size_t d = 0; d < 2; ++d) {
+            keep(worst_slope, slope[2 * c + d], e[1 + d]);
+            keep(worst_slope64, slope64[2 * c + d], e[1 + d]);
+          }
         }
       }
       CAPTURE(filter);
       CAPTURE(wrap);
-      // 12 u of |u| < 3 is off by 2^-19, and texels differ by up to 3: 6e-6 along either axis,
-      // and the slopes of the cubic by 12 times that, twice.
-      CHECK(worst < 3e-5);
-      // The double machine rounds the place to a float: another 2^-25 of 3 by a slope of 12 x 3.
-      CHECK(worst64 < 3.5e-5);
-      CHECK(worst_slope < 1e-3);
+      // Texels are at most 2, and differ by at most 3, 36 times as much for each unit of u. Parts
+      // of a texel are right to 1.5 units in the last place, and make 3 times that of either axis;
+      // weights of the cubic have 5 roundings each, sums 4: 24 of 2 in all.
+      CHECK(worst < 60 * 0x1p-24);
+      CHECK(worst_slope < 36 * 60 * 0x1p-24);
+      // Beside that, the formula here forgets some of 12 u: u < 3 by 2^-52 of 36, on two axes.
+      CHECK(worst64 < 160 * 0x1p-53);
+      CHECK(worst_slope64 < 36 * 160 * 0x1p-53);
     }
 }
 
@@ -192,11 +130,11 @@ TEST_CASE("textures: channels, luminance, and colours of grey files") {
   ImageUse use = use_of(folder.write("a.tif", t));
   use.filter = "nearest";
   const Place p{0.5f, 0.375f};  // column 2, row 2
-  CHECK(look_up(*open(use), ImageAsk::Number, p)[0] ==
+  CHECK(look_up<float>(*open(use), ImageAsk::Number, p)[0] ==
         doctest::Approx(luminance(t.at(2, 2, 0), t.at(2, 2, 1), t.at(2, 2, 2))).epsilon(1e-6));
   for (const auto& [name, channel] : {std::pair{"G", 1}, {"A", 3}, {"2", 2}}) {
     use.channel = name;
-    CHECK(look_up(*open(use), ImageAsk::Number, p)[0] == t.at(2, 2, channel));
+    CHECK(look_up<float>(*open(use), ImageAsk::Number, p)[0] == t.at(2, 2, channel));
   }
   use.channel = "Q";
   const auto none = open_textures(64)->open(use);
@@ -206,8 +144,8 @@ TEST_CASE("textures: channels, luminance, and colours of grey files") {
   use = use_of(folder.write("grey.tif", grey));
   use.filter = "nearest";
   const double g = grey.at(2, 2, 0);
-  CHECK(look_up(*open(use), ImageAsk::Colour, p) == std::vector<double>{g, g, g});
-  CHECK(look_up(*open(use), ImageAsk::Number, p)[0] == g);
+  CHECK(look_up<float>(*open(use), ImageAsk::Colour, p) == std::vector<double>{g, g, g});
+  CHECK(look_up<float>(*open(use), ImageAsk::Number, p)[0] == g);
 }
 
 TEST_CASE("textures: colours are made linear before they are filtered") {
@@ -220,7 +158,7 @@ TEST_CASE("textures: colours are made linear before they are filtered") {
   const auto same = [](double x) { return x; };
   for (const char* space : {"linear", "sRGB", "auto"}) {
     use.space = space;
-    const auto colour = look_up(*open(use), ImageAsk::Colour, middle);
+    const auto colour = look_up<float>(*open(use), ImageAsk::Colour, middle);
     for (int c = 0; c < 3; ++c)
       CHECK(colour[std::size_t(c)] ==
             doctest::Approx(use.space == "linear" ? mean(c, same) : mean(c, materials::srgb_decode))
@@ -232,7 +170,7 @@ TEST_CASE("textures: colours are made linear before they are filtered") {
   // Numbers of more than 8 bits are taken for linear.
   use = use_of(folder.write("float.tif", t));
   use.space = "auto";
-  CHECK(look_up(*open(use), ImageAsk::Colour, middle)[1] == doctest::Approx(mean(1, same)));
+  CHECK(look_up<float>(*open(use), ImageAsk::Colour, middle)[1] == doctest::Approx(mean(1, same)));
   use.space = "ultraviolet";
   const auto none = open_textures(64)->open(use);
   REQUIRE(!none);
@@ -251,7 +189,7 @@ TEST_CASE("textures: the pixel is filtered away along its own axes") {
   const auto c = open(use_of(folder.write("c.tif", columns)));
   const auto r = open(use_of(folder.write("r.tif", rows)));
   const auto value = [](const vm::Image& image, Place p) {
-    return look_up(image, ImageAsk::Number, p)[0];
+    return look_up<float>(image, ImageAsk::Number, p)[0];
   };
   const float white = 0.5f + 0.5f / 64;  // the middle of a white column
   const float row = 0.5f + 0.5f / 64;    // and of a black row, counted from below
@@ -303,7 +241,7 @@ TEST_CASE("textures: packed blocks keep within a step of their line, and a quart
       // A block's change is at most 3 (0.3 + 0.2) 0.4 of the first channel, 8 times that of the
       // last; a thirtieth of it is half a step, and ends are off by 2^-11 of themselves.
       const Place p{(float(x) + 0.5f) / 37, 1 - (float(y) + 0.5f) / 22};
-      const auto colour = look_up(*packed, ImageAsk::Colour, p);
+      const auto colour = look_up<float>(*packed, ImageAsk::Colour, p);
       for (int c = 0; c < 3; ++c) {
         const double scale = c == 2 ? 8 : 1;
         CHECK(std::abs(colour[std::size_t(c)] - t.at(x, y, c)) <=
@@ -319,7 +257,8 @@ TEST_CASE("textures: packed blocks keep within a step of their line, and a quart
   const auto exact = open(use);
   for (int k = 0; k < 64; ++k) {
     const Place p{(float(k % 8) + 0.5f) / 8, 1 - (float(k / 8) + 0.5f) / 8};
-    CHECK(look_up(*exact, ImageAsk::Colour, p) == std::vector<double>{-2, k % 3 ? 0.5 : 1024, 1});
+    CHECK(look_up<float>(*exact, ImageAsk::Colour, p) ==
+          std::vector<double>{-2, k % 3 ? 0.5 : 1024, 1});
   }
 }
 
@@ -330,7 +269,9 @@ TEST_CASE("textures: tiles have their places, and there is nothing outside") {
   folder.write("t.0001.tif", {1, 1, 1, {9}});
   const auto image = open(use_of(folder / "t.<UDIM>.tif"));
   CHECK(image->files().size() == 3);
-  const auto value = [&](float u, float v) { return look_up(*image, ImageAsk::Number, {u, v})[0]; };
+  const auto value = [&](float u, float v) {
+    return look_up<float>(*image, ImageAsk::Number, {u, v})[0];
+  };
   CHECK(value(0.5f, 0.5f) == 0.25);
   CHECK(value(1.25f, 0.5f) == 0.5);
   CHECK(value(1.25f, 1.5f) == 0.75);
@@ -402,7 +343,7 @@ TEST_CASE("textures: bounds hold any lookup; near the texels that it sees, and f
               for (int a = 0; a < 4; ++a) place.across[a] = float(box[2 + a].lo);
               place.blur = float(box[6].lo);
               place.blur_v = float(box[7].lo);
-              const auto found = look_up(*image, ask, place);
+              const auto found = look_up<float>(*image, ask, place);
               for (std::size_t r = 0; r < found.size(); ++r) {
                 const double slack = 1e-5 * (1 + std::abs(found[r]));
                 beyond += found[r] < bounds[r].lo - slack || found[r] > bounds[r].hi + slack;
@@ -471,13 +412,13 @@ TEST_CASE("textures: a lamp's photometric file is a picture over its two angles"
   CHECK(high == 200);
   CHECK(image->files() == std::vector<std::string>{folder / "LAMP.IES"});
   // u in turns, v in half turns; a quarter turn is halfway between the two planes.
-  CHECK(look_up(*image, ImageAsk::Number, {0, 0.5f})[0] == doctest::Approx(100));
-  CHECK(look_up(*image, ImageAsk::Number, {0.25f, 0.5f})[0] == doctest::Approx(60));
-  CHECK(look_up(*image, ImageAsk::Number, {-0.25f, 0.25f})[0] == doctest::Approx(130));
-  CHECK(look_up(*image, ImageAsk::Colour, {0.5f, 0.5f}) == std::vector<double>(3, 20.0));
-  CHECK(look_up(*image, ImageAsk::Number, {0, 1.5f})[0] == 0);
-  CHECK(look_up(*image, ImageAsk::Number, {float(NAN), 0.5f})[0] == 0);
-  const auto slope = look_up(*image, ImageAsk::NumberSlope, {0.2f, 0.25f});
+  CHECK(look_up<float>(*image, ImageAsk::Number, {0, 0.5f})[0] == doctest::Approx(100));
+  CHECK(look_up<float>(*image, ImageAsk::Number, {0.25f, 0.5f})[0] == doctest::Approx(60));
+  CHECK(look_up<float>(*image, ImageAsk::Number, {-0.25f, 0.25f})[0] == doctest::Approx(130));
+  CHECK(look_up<float>(*image, ImageAsk::Colour, {0.5f, 0.5f}) == std::vector<double>(3, 20.0));
+  CHECK(look_up<float>(*image, ImageAsk::Number, {0, 1.5f})[0] == 0);
+  CHECK(look_up<float>(*image, ImageAsk::Number, {float(NAN), 0.5f})[0] == 0);
+  const auto slope = look_up<float>(*image, ImageAsk::NumberSlope, {0.2f, 0.25f});
   CHECK(slope[0] == doctest::Approx(-40 * 2));           // from 150 to 110 in half a turn
   CHECK(slope[1] == doctest::Approx((68 - 200) / 0.5));  // from 200 to 68 in a quarter turn
   const auto bad = open_textures(64)->open(use_of(write("bad.ies", "100 50 0 100 10\n")));
