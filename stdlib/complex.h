@@ -92,14 +92,14 @@ MMS_INLINE Complex sqrt_complex(Complex z) {
                   : r.im};
 }
 
-/// Where the angle is no number: infinite with an infinite real part, and sinh keeps a real part of
-/// 0 (C99).
+/// Where the angle is no number: infinite with an infinite real part, of a sign that C99 leaves
+/// open and libm has positive; and sinh keeps a real part of 0.
 template <class Reduction = Usual>
 MMS_INLINE Complex sinh_complex(Complex z) {
   const SinhCosh h = sinh_cosh(z.re);
   const SinCos a = signed_sin_cos<Reduction>(z.im);
-  const bool kept = infinite_without_angle(z.re, a) | ((z.re == 0) & (a.cos != a.cos));
-  return {kept ? h.sinh : h.sinh * a.cos, damped(a.sin, h.cosh)};
+  const double re = (z.re == 0) & (a.cos != a.cos) ? h.sinh : h.sinh * a.cos;
+  return {infinite_without_angle(z.re, a) ? h.cosh : re, damped(a.sin, h.cosh)};
 }
 template <class Reduction = Usual>
 MMS_INLINE Complex cosh_complex(Complex z) {
@@ -228,7 +228,7 @@ MMS_COMPLEX(ComplexAcosh, 0, acosh_complex(z), of_libm(__builtin_cacosh(libm(z))
 MMS_COMPLEX(ComplexAtanh, 0, atanh_complex(z), of_libm(__builtin_catanh(libm(z))))
 MMS_COMPLEX(ComplexExp, im, exp_complex<Reduction>(z), of_libm(__builtin_cexp(libm(z))))
 MMS_COMPLEX(ComplexSin, re, turned_right(sinh_complex<Reduction>(turned_left(z))),
-            of_libm(__builtin_csin(libm(z))))
+            turned_right(of_libm(__builtin_csinh(libm(turned_left(z))))))
 MMS_COMPLEX(ComplexCos, re, cosh_complex<Reduction>(turned_left(z)),
             of_libm(__builtin_ccos(libm(z))))
 MMS_COMPLEX(ComplexTan, re, turned_right(tanh_complex<Reduction>(turned_left(z))),
