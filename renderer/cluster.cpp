@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -27,17 +28,18 @@ std::array<double, 3> Cluster::xyz(const Spectrumf& radiance) const {
   return sum;
 }
 
-double cluster_number(float u) {
+double cluster_number(float u, int wavelengths) {
   constexpr int kBits = 24;
   const auto x = std::uint32_t(u * float(1 << kBits));
+  const int hero_bits = std::countr_zero(unsigned(wavelengths));
   std::uint32_t hero = 0, place = 0;
   for (int i = 0; i < kBits; ++i) {
     const std::uint32_t digit = x >> (kBits - 1 - i) & 1;
-    const bool of_hero = i == 1 || i == 3 || i == 5;
+    const bool of_hero = i % 2 == 1 && i < 2 * hero_bits;
     std::uint32_t& to = of_hero ? hero : place;
     to = to << 1 | digit;
   }
-  return double(hero << (kBits - 3) | place) / (1 << kBits);
+  return double(hero << (kBits - hero_bits) | place) / (1 << kBits);
 }
 
 namespace {
@@ -67,11 +69,11 @@ std::vector<Row> make_rows() {
 
 }  // namespace
 
-Cluster sample_cluster(double u) {
+Cluster sample_cluster(double u, int wavelengths) {
   static const std::vector<Row> rows = make_rows();
   Cluster c;
   for (int i = 0; i < kWavelengths; ++i) {
-    double place = u + double(i) / kWavelengths;
+    double place = u + double(i % wavelengths) / wavelengths;
     place = (place - std::floor(place)) * kRows;
     const auto row = std::size_t(place);
     const auto beyond = float(place - double(row));

@@ -24,13 +24,15 @@ struct Cluster {
   std::array<double, 3> xyz(const Spectrumf& radiance) const;
 };
 
-/// The cluster drawn by `u` in [0, 1).
-Cluster sample_cluster(double u);
+/// The cluster drawn by `u` in [0, 1), of so many wavelengths that differ: a power of two. Where
+/// they are fewer than lanes the lanes repeat them.
+Cluster sample_cluster(double u, int wavelengths = kWavelengths);
 
 /// Puts the digits of a number in [0, 1) into another order: the number that draws a cluster says
-/// with its first three binary digits which wavelength is the hero, and with the others where all
-/// eight lie. A stratified number has its strata in its first digits, and where hardly anything
-/// depends on wavelength only the latter matter; so the two take turns, the latter first.
-double cluster_number(float u);
+/// with its first binary digits which wavelength is the hero (three for eight of them), and with
+/// the others where all lie. A stratified number has its strata in its first digits, and where
+/// hardly anything depends on wavelength only the latter matter; so the two take turns, the latter
+/// first.
+double cluster_number(float u, int wavelengths = kWavelengths);
 
 }  // namespace mms::renderer

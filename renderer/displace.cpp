@@ -106,23 +106,63 @@ void add_normals(Mesh& m, const std::vector<SurfacePoint>& before) {
   }
 }
 
+/// From `p` to the box.
+double distance(const Bounds& b, Vec3d p) {
+  const auto beyond = [](double low, double high, double x) {
+    return std::max({low - x, x - high, 0.0});
+  };
+  return length(Vec3d{beyond(b.low.x, b.high.x, p.x), beyond(b.low.y, b.high.y, p.y),
+                      beyond(b.low.z, b.high.z, p.z)});
+}
+
 class Displacer {
  public:
-  Displacer(const SceneData& scene, const Compiled& compiled)
-      : scene_(scene), scripts_(compiled), cluster_(sample_cluster(0.5)) {}
+  Displacer(const SceneData& scene, const Compiled& compiled, const CameraRays& camera)
+      : scene_(scene), scripts_(compiled), cluster_(sample_cluster(0.5)) {
+    // At an angle from the middle of the picture, distance r, what is e long covers at most
+    // e / (r cos^2 pixel_angle) pixels: the film is a plane. The corners have the least cosine.
+    const double cosine = dot(Vec3d(camera.at(0, 0, 0.5, 0.5).direction), camera.forward());
+    pixel_ = camera.pixel_angle() * cosine * cosine;
+  }
 
   Result<Mesh> mesh_of(const Object& o) {
+    if (o.displace > 0) return mesh_of(o, o.displace);
+    // What `height` moves towards the camera needs shorter edges than what it was before.
+    double nearest = distance(bounds(o.shape), scene_.camera.position);
+    for (int round = 0;; ++round) {
+      if (!(nearest > 0))
+        return Error{o.name.empty() ? "displace_pixels" : o.name,
+                     "the camera stands in the box around what it is to displace by pixels",
+                     "state an edge in metres: `displace`"};
+      // A sphere's triangles are halves of squares.
+      const double longest = std::holds_alternative<Sphere>(o.shape) ? std::sqrt(2.0) : 1;
+      Result<Mesh> mesh = mesh_of(o, o.displace_pixels * pixel_ * nearest / longest);
+      if (!mesh) return mesh;
+      Shape shape(std::move(*mesh));
+      const double now = distance(bounds(shape), scene_.camera.position);
+      if (now >= kNearEnough * nearest || round == kRounds) return std::get<Mesh>(std::move(shape));
+      nearest = now;
+    }
+  }
+
+ private:
+  /// Rounds of finding how near an object comes, at most, and how well it needs to be known.
+  static constexpr int kRounds = 4;
+  static constexpr double kNearEnough = 0.99;
+
+  Result<Mesh> mesh_of(const Object& o, double edge) {
     const vm::Descriptor& d = *scene_.surfaces[std::size_t(o.surface)].script;
     const Sphere* sphere = std::get_if<Sphere>(&o.shape);
-    const std::size_t n = sphere ? pieces(kPi<double> * sphere->radius, o.displace)
-                                 : pieces(longest_edge(std::get<Mesh>(o.shape)), o.displace);
+    const std::size_t n = sphere ? pieces(kPi<double> * sphere->radius, edge)
+                                 : pieces(longest_edge(std::get<Mesh>(o.shape)), edge);
     const std::size_t count = sphere ? 4 * n * n : std::get<Mesh>(o.shape).triangles.size() * n * n;
     if (count > kMostMicrotriangles)
       return Error{o.name.empty() ? "displace" : o.name,
                    fmt::format("{} triangles to displace, {} at most", count, kMostMicrotriangles),
-                   "state a longer edge in `displace`"};
+                   o.displace > 0 ? "state a longer edge in `displace`"
+                                  : "state more pixels in `displace_pixels`, or render fewer"};
     const Fine fine = sphere ? cut(*sphere, n) : cut(std::get<Mesh>(o.shape), n);
-    const std::vector<double> heights = heights_of(o, d, fine.points);
+    const std::vector<double> heights = heights_of(o, d, edge, fine.points);
     Mesh m;
     for (std::size_t i = 0; i < fine.points.size(); ++i) {
       const SurfacePoint& p = fine.points[i];
@@ -137,7 +177,6 @@ class Displacer {
     return m;
   }
 
- private:
   static double longest_edge(const Mesh& m) {
     double longest = 0;
     for (const auto& [a, b, c] : m.triangles) {
@@ -147,7 +186,7 @@ class Displacer {
     return longest;
   }
 
-  std::vector<double> heights_of(const Object& o, const vm::Descriptor& d,
+  std::vector<double> heights_of(const Object& o, const vm::Descriptor& d, double edge,
                                  const std::vector<SurfacePoint>& points) {
     std::vector<double> heights;
     std::vector<ScriptPoint> batch;
@@ -164,7 +203,7 @@ class Displacer {
         p.surface = points[first + i];
         p.view = p.surface.normal;
         p.distance = 1;
-        p.cone = o.displace;
+        p.cone = edge;
         p.screen_x = p.surface.tangent;
         p.screen_y = p.surface.bitangent;
         lanes.push_back(&p);
@@ -181,21 +220,23 @@ class Displacer {
   const SceneData& scene_;
   Scripts scripts_;
   Cluster cluster_;
+  double pixel_;  ///< least width of a pixel, at 1 m
 };
 
 }  // namespace
 
 bool any_displaced(const SceneData& scene) {
   return std::any_of(scene.objects.begin(), scene.objects.end(),
-                     [](const Object& o) { return o.displace > 0; });
+                     [](const Object& o) { return o.to_displace(); });
 }
 
-Result<SceneData> displaced(const SceneData& scene, const Compiled& compiled) {
-  Displacer displacer(scene, compiled);
+Result<SceneData> displaced(const SceneData& scene, const Compiled& compiled,
+                            const CameraRays& camera) {
+  Displacer displacer(scene, compiled, camera);
   SceneData result = scene;
   for (Object& o : result.objects) {
     const vm::Descriptor* d = scene.surfaces[std::size_t(o.surface)].script;
-    if (!(o.displace > 0) || !d) continue;
+    if (!o.to_displace() || !d) continue;
     Result<Mesh> mesh = displacer.mesh_of(o);
     if (!mesh) return mesh.error();
     o.shape = std::move(*mesh);

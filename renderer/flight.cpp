@@ -39,7 +39,7 @@ Spectrumf Carried::weighted(double light_density, Estimator estimator) const {
   const auto density = [&](float p, float light) {
     return double(p) + (light_density > 0 ? light_density * light : 0);
   };
-  if (estimator == Estimator::Clustered) {
+  if (estimator == Estimator::Clustered || estimator == Estimator::Four) {
     const double sum = density(pdf.sum(), light_pdf.sum());
     return sum > 0 ? beta * float(1 / sum) : Spectrumf(0.0f);
   }

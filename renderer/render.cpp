@@ -43,7 +43,8 @@ Result<Rendered> render(const vm::Program& program, const Scene& scene,
   const Compiled compiled(program);
   SceneData moved;
   if (any_displaced(scene.data())) {
-    Result<SceneData> made = displaced(scene.data(), compiled);
+    Result<SceneData> made = displaced(
+        scene.data(), compiled, CameraRays(scene.data().camera, options.width, options.height));
     if (!made) return made.error();
     moved = std::move(*made);
   }

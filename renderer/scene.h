@@ -53,7 +53,9 @@ struct Object {
   bool test = false;     ///< an object under test
   int priority = 0;      ///< over what overlaps it (renderer/media.h); 0: none
   double displace = 0;   ///< edge of the triangles that `height` moves, m; 0: it bumps only
-  bool displaced = false;  ///< `shape` has been moved by `height` already
+  double displace_pixels = 0;  ///< or the edge where it is nearest to the camera, in pixels
+  bool displaced = false;      ///< `shape` has been moved by `height` already
+  bool to_displace() const { return displace > 0 || displace_pixels > 0; }
 };
 
 struct Camera {

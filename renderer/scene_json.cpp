@@ -120,7 +120,7 @@ class Parser {
   void object(const Node& n) {
     std::vector<std::string> keys = shape_keys();
     for (const char* key : {"name", "instance", "translate", "rotate", "scale", "surface", "volume",
-                            "displace", "priority", "test"})
+                            "displace", "displace_pixels", "priority", "test"})
       keys.emplace_back(key);
     n.keys(keys);
     if (n.has("instance"))
@@ -142,10 +142,14 @@ class Parser {
       if (!o.name.empty()) named_.push_back({o.name, n, int(data_.objects.size())});
     }
     o.displace = n.number_or("displace", 0, 1e-9, 1e9);
-    if (o.displace > 0 && !std::holds_alternative<Sphere>(o.shape) &&
+    o.displace_pixels = n.number_or("displace_pixels", 0, 1e-3, 1e3);
+    const char* key = o.displace_pixels > 0 ? "displace_pixels" : "displace";
+    if (o.to_displace() && !std::holds_alternative<Sphere>(o.shape) &&
         !std::holds_alternative<Mesh>(o.shape))
-      n["displace"].fail("only spheres and meshes are displaced",
-                         "write the shape as a mesh, or leave `displace` out: `height` bumps");
+      n[key].fail("only spheres and meshes are displaced",
+                  fmt::format("write the shape as a mesh, or leave `{}` out: `height` bumps", key));
+    if (o.displace > 0 && o.displace_pixels > 0)
+      n[key].fail("an edge is in metres or in pixels", "leave one of the two out");
     bind(n, o);
     if (o.volume >= 0 && open(o.shape))
       n.fail("a volume needs a closed object", "a sphere, a box, or a closed mesh");

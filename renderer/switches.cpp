@@ -10,6 +10,7 @@ constexpr SwitchInfo kEstimators[] = {
      "all eight over the density of the hero alone: (4.5); unfit for polished glass that "
      "disperses"},
     {"single", "the hero alone: (4.4)"},
+    {"four", "as clustered, with four wavelengths: more colour noise (Figure 4.8)"},
 };
 
 constexpr SwitchInfo kGenerators[] = {

@@ -13,9 +13,13 @@
 
 namespace mms::renderer {
 
-/// How light that a path finds for its hero counts for the cluster's eight wavelengths (thesis
-/// 4.3.3).
-enum class Estimator : std::uint8_t { Clustered, Unweighted, SingleSample };
+/// How light that a path finds for its hero counts for the cluster's wavelengths (thesis 4.3.3).
+enum class Estimator : std::uint8_t { Clustered, Unweighted, SingleSample, Four };
+
+/// Wavelengths of a cluster that differ. Four lie evenly in eight lanes, each in two of them, so
+/// that every sum over lanes is twice that over wavelengths, and so are the densities that it is
+/// over.
+constexpr int wavelengths_of(Estimator e) { return e == Estimator::Four ? 4 : 8; }
 
 /// Where the first four coordinates of a sample come from (thesis 6.1.1).
 enum class Generator : std::uint8_t { Niederreiter, Sobol, Random, Unscrambled };

@@ -125,8 +125,8 @@ void add_render_options(Verb& verb, RenderRequest& r) {
   verb.add({"--estimator",
             &r.estimator,
             "NAME",
-            "For comparison: clustered, unweighted or single [clustered]",
-            {"clustered", "unweighted", "single"}});
+            "For comparison: clustered, unweighted, single or four [clustered]",
+            {"clustered", "unweighted", "single", "four"}});
   verb.add({"--sampler",
             &r.sampler,
             "NAME",

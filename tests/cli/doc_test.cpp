@@ -157,7 +157,7 @@ TEST_CASE("the scripts of the gallery are laid out and link, and their pictures 
   const fs::path root = MMS_SOURCE_DIR;
   const Folder folder;
   for (const char* name : {"library", "noise", "fractals", "screen", "stained_glass", "copper",
-                           "dispersion", "illuminants", "frosted", "drink"}) {
+                           "dispersion", "clusters", "illuminants", "frosted", "drink"}) {
     const std::string script = (root / "examples/figures" / name).string() + ".mms";
     INFO(script);
     CHECK(folder.mms("check " + script).exit == 0);

@@ -33,6 +33,26 @@ TEST_CASE("one cluster sees white light as white: its luminance within 0.6 %, it
   CHECK(std::sqrt(yy - y * y) < 0.006);
 }
 
+TEST_CASE("clusters of four: the same white, each wavelength in two lanes, more noise of colour") {
+  double y = 0, red = 0, red4 = 0, red8 = 0;
+  constexpr int n = 4096;
+  const auto rgb = [](const Cluster& c) {
+    const auto xyz = c.xyz(c.light({1, 1, 1}) * (1.0f / kWavelengths));
+    return materials::linear_srgb_of_xyz({xyz[0], xyz[1], xyz[2]});
+  };
+  for (int i = 0; i < n; ++i) {
+    const Cluster four = sample_cluster((i + 0.5) / n, 4);
+    for (int k = 0; k < 4; ++k) CHECK(four.lambda.nm[k] == four.lambda.nm[k + 4]);
+    y += dot(rgb(four), Vec3d{0.2126, 0.7152, 0.0722}) / n;
+    red += rgb(four).x / n;
+    red4 += std::pow(rgb(four).x - 1, 2) / n;
+    red8 += std::pow(rgb(sample_cluster((i + 0.5) / n)).x - 1, 2) / n;
+  }
+  CHECK(y == doctest::Approx(1).epsilon(1e-3));
+  CHECK(red == doctest::Approx(1).epsilon(1e-3));
+  CHECK(std::sqrt(red4) > 2 * std::sqrt(red8));
+}
+
 TEST_CASE("where all is grey, red, green and blue err at most a tenth more than luminance alone") {
   HandProgram h;
   h.matte("x", 0.5);
@@ -60,6 +80,9 @@ TEST_CASE("where all is grey, red, green and blue err at most a tenth more than 
 }
 
 TEST_CASE("numbers of clusters: digits of the place and of the hero take turns, none is lost") {
+  CHECK(cluster_number(0.5f, 4) == 0.125);
+  CHECK(cluster_number(0.0625f, 4) == 0.25);
+  CHECK(cluster_number(0x1p-6f, 4) == 0x1p-6);
   CHECK(cluster_number(0) == 0);
   CHECK(cluster_number(0.5f) == 0.0625);  // the first digit: the place, by a sixteenth
   CHECK(cluster_number(0.25f) == 0.5);    // the second: the hero

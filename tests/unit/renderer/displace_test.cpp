@@ -3,9 +3,13 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 #include <tuple>
+
+#include <fmt/format.h>
 
 #include "base/warp.h"
 #include "scenes.h"
@@ -20,7 +24,7 @@ namespace {
 Mesh displaced_mesh(const vm::Program& p, const std::string& object) {
   const Scene s = scene_of(p, R"({"objects": [{"test": true, )" + object + "}]}");
   const Compiled compiled(p);
-  Result<SceneData> r = displaced(s.data(), compiled);
+  Result<SceneData> r = displaced(s.data(), compiled, CameraRays(s.data().camera, 64, 64));
   REQUIRE_MESSAGE(bool(r), (r ? "" : r.error().what));
   CHECK(r->objects[0].displaced);
   return std::get<Mesh>(r->objects[0].shape);
@@ -108,15 +112,106 @@ TEST_CASE("a displaced ball is seen as large as it is, is not bumped again, and 
   CHECK(met == doctest::Approx(share).epsilon(0.03));
 }
 
+namespace {
+
+constexpr double kAway = 6;  ///< of the camera, on the z axis
+
+/// The scene's ball displaced to a fraction of a pixel, and the camera that it is for.
+struct Seen {
+  CameraRays camera;
+  Mesh mesh;
+  /// Where a point lies in the picture, in pixels.
+  std::array<double, 2> at(Vec3d p) const {
+    const double scale = 1 / ((kAway - p.z) * camera.pixel_angle());
+    return {p.x * scale, p.y * scale};
+  }
+};
+Seen seen(const vm::Program& p, double pixels, int side) {
+  const Scene s = scene_of(
+      p, fmt::format(R"({{"camera": {{"position": [0, 0, {}], "target": [0, 0, 0], "fov": 30}},
+      "objects": [{{"test": true, "sphere": {{}}, "displace_pixels": {}}}]}})",
+                     kAway, pixels));
+  const CameraRays camera(s.data().camera, side, side);
+  Result<SceneData> r = displaced(s.data(), Compiled(p), camera);
+  REQUIRE_MESSAGE(bool(r), (r ? "" : r.error().what));
+  return {camera, std::get<Mesh>(r->objects[0].shape)};
+}
+
+}  // namespace
+
+TEST_CASE("edges in pixels: none is longer where the moved ball is seen, and not much shorter") {
+  const vm::Program p = compile("surface s\n height = 0.4;\nend\n");
+  for (const double pixels : {0.5, 2.0}) {
+    const Seen s = seen(p, pixels, kSanitized ? 16 : 48);
+    double longest = 0;
+    for (const auto& t : s.mesh.triangles)
+      for (int k = 0; k < 3; ++k) {
+        const auto a = s.at(Vec3d(s.mesh.positions[t[k]]));
+        const auto b = s.at(Vec3d(s.mesh.positions[t[(k + 1) % 3]]));
+        longest = std::max(longest, std::hypot(a[0] - b[0], a[1] - b[1]));
+      }
+    // A ball 1.4 times as large has edges as much longer. The nearest point lies in the middle of
+    // the picture, where cos^2 of its corners, 1 / (1 + 2 tan^2 15), is not needed.
+    CHECK(longest < 1.4 * pixels);
+    CHECK(longest > 0.8 * 1.4 * pixels / (1 + 2 * std::pow(std::tan(kPi<double> / 12), 2)));
+  }
+}
+
+TEST_CASE("the outline of a ball with waves is that of the closed form, to the stated fraction") {
+  const vm::Program p = compile("surface s\n height = 0.1 * cos(8 * pi * $uv.y);\nend\n");
+  constexpr double kFraction = 0.5;
+  const Seen s = seen(p, kFraction, kSanitized ? 24 : 64);
+  for (int i = 0; i < 8; ++i) {
+    const double angle = 0.1 + kPi<double> * i / 4;
+    const auto along = [&](const std::array<double, 2>& q) {
+      return q[0] * std::cos(angle) + q[1] * std::sin(angle);
+    };
+    double found = 0, truth = 0;
+    for (const Vec3f& q : s.mesh.positions) found = std::max(found, along(s.at(Vec3d(q))));
+    const int n = kSanitized ? 400 : 1000;  // of the closed form: far denser than the mesh
+    for (int j = 0; j <= n; ++j)
+      for (int k = 0; k < n; ++k) {
+        const double theta = kPi<double> * j / n, phi = 2 * kPi<double> * k / n;
+        const double r = 1 + 0.1 * std::cos(8 * theta);
+        truth = std::max(truth, along(s.at(Vec3d{std::cos(phi) * std::sin(theta), std::cos(theta),
+                                                 std::sin(phi) * std::sin(theta)} *
+                                           r)));
+      }
+    CHECK(std::abs(found - truth) < kFraction);
+  }
+}
+
+TEST_CASE(
+    "pixels that would need too many triangles, or have no size, are told before any is made") {
+  const vm::Program p = compile("surface s\n height = 0.1;\nend\n");
+  const auto error_of = [&](const char* camera, int side) {
+    const Scene s = scene_of(p, fmt::format(R"({{"camera": {{"position": {}, "target": [0, 0, 0]}},
+        "objects": [{{"test": true, "sphere": {{}}, "displace_pixels": 0.1}}]}})",
+                                            camera));
+    const auto r = displaced(s.data(), Compiled(p), CameraRays(s.data().camera, side, side));
+    REQUIRE_FALSE(bool(r));
+    return r.error();
+  };
+  CHECK(error_of("[0, 0, 3]", 4096).hint.find("displace_pixels") != std::string::npos);
+  CHECK(error_of("[0, 0, 0.5]", 64).hint.find("in metres") != std::string::npos);
+}
+
 TEST_CASE("what cannot be displaced is told") {
   const vm::Program p = compile("surface s\n height = 0.5;\nend\n");
   const Result<SceneData> disc =
       parse_scene(p, {}, R"({"objects": [{"disc": {}, "test": true, "displace": 0.1}]})", "s", "");
   REQUIRE_FALSE(bool(disc));
   CHECK(disc.error().where == "s: objects[0].displace");
+  const Result<SceneData> both = parse_scene(
+      p, {},
+      R"({"objects": [{"sphere": {}, "test": true, "displace": 0.1, "displace_pixels": 1}]})", "s",
+      "");
+  REQUIRE_FALSE(bool(both));
+  CHECK(both.error().where == "s: objects[0].displace_pixels");
   const Scene fine =
       scene_of(p, R"({"objects": [{"sphere": {}, "test": true, "displace": 1e-5}]})");
-  const Result<SceneData> r = displaced(fine.data(), Compiled(p));
+  const Result<SceneData> r =
+      displaced(fine.data(), Compiled(p), CameraRays(fine.data().camera, 64, 64));
   REQUIRE_FALSE(bool(r));
   CHECK(r.error().hint.find("longer edge") != std::string::npos);
 }
