@@ -181,7 +181,8 @@ void worley_lengths(const Interval* in, Interval* out) {
   std::fill_n(corner, N, 1.0);
   std::fill_n(beyond, N, 1.0);
   beyond[0] = 1.5;
-  const double far = N * (2.5 + 0.5 * in[2 * N + 1].magnitude()) * (1 + 0x1p-20);
+  const double jitter = in[2 * N + 1].magnitude();  // squares of more are no floats
+  const double far = jitter < 0x1p60 ? N * (2.5 + 0.5 * jitter) * (1 + 0x1p-20) : Interval::kInf;
   const double exponent = std::isnan(least) || in[2 * N + 2].nan ? 1 : least;
   const double second = minkowski(beyond, N, exponent);
   const double most[] = {minkowski(corner, N, exponent), second, N == 1 ? 2 : second};

@@ -336,8 +336,8 @@ inline void worley_edge_kernel(const void* const* in, void* const* out, int lane
     s.load(in, first, false);
     s.find_border();
     for (int l = 0; l < Search::kLanes; ++l) {
-      const R edge =
-          R(0.5) * s.best[1][l];  // infinite: nothing was found, for places are no numbers
+      // Infinite: nothing was found, for places are no numbers.
+      const R edge = R(0.5) * s.best[1][l];
       const R number = edge < kInf<R> ? edge : kNan<R>;
       static_cast<R*>(out[0])[first + l] = edge < 0 ? R(0) : number;
     }

@@ -94,6 +94,21 @@ TEST_CASE("worley: every distance lies in its enclosure, which is as wide as the
       }
 }
 
+TEST_CASE("worley: squares that are no floats are in their enclosure, too") {
+  std::mt19937 random(3);
+  for (const double jitter : {3.0, 0x1p50, 0x1p70, 0x1p126})
+    for (const double exponent : {1.0, 2.0, 3.5, 1e3}) {
+      const Setting s{3, exponent, 1, 0, jitter};
+      const auto box = random_box(random, s, true);
+      for (const vm::Builtin* row : {&nearest_row(3), &squares_row(3)}) {
+        std::vector<Interval> out(3, Interval{row->bounds.low, row->bounds.high, true});
+        row->bounds.run(box.data(), out.data());
+        CHECK(outside<float>(random, *row, s, box, out, true) == 0);
+        CHECK(outside<double>(random, *row, s, box, out, true) == 0);
+      }
+    }
+}
+
 TEST_CASE("worley: what is not known of the arguments leaves the range") {
   for (int n = 1; n <= 4; ++n) {
     const Setting s{n};
