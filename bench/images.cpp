@@ -14,6 +14,7 @@
 #include "bench/document.h"
 #include "bench/measure.h"
 #include "materials/colour.h"
+#include "materials/curve.h"
 #include "renderer/textures.h"
 
 namespace mms::bench {
@@ -130,6 +131,40 @@ std::pair<double, double> difference(const std::vector<float>& a, const std::vec
   return {std::sqrt(sum / (3 * kPoints)), most};
 }
 
+/// Looking tables over the wavelength up (`measured`), 256 points a call and one by one.
+std::string curve_table() {
+  std::string text =
+      "\nns per lookup in a table over the wavelength (`measured`), anywhere in it:\n\n| rows | "
+      "value | "
+      "value, alone | slope | slope, alone |\n|---|---|---|---|---|\n";
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> nanometres(360, 830);
+  std::vector<float> metres, results(kPoints);
+  for (int i = 0; i < kPoints; ++i) metres.push_back(1e-9f * nanometres(random));
+  for (const int rows : {16, 95, 471, 4701}) {
+    std::string table;
+    for (int k = 0; k < rows; ++k)
+      table += fmt::format("{} {}\n", 360 + 470.0 * k / (rows - 1), std::sin(0.1 * k));
+    const auto curve =
+        materials::read_curve(table, {"table", std::string(vm::kCurveFilter), "", "nm", "", ""});
+    std::vector<std::function<void()>> contenders;
+    for (const vm::ImageAsk ask : {vm::ImageAsk::Curve, vm::ImageAsk::CurveSlope})
+      for (const int batch : {kBatch, 1})
+        contenders.push_back([&, ask, batch] {
+          for (int first = 0; first < kPoints; first += batch) {
+            const float* const in = metres.data() + first;
+            float* const out = results.data() + first;
+            (*curve)->look_up(ask, &in, &out, batch);
+          }
+        });
+    text += fmt::format("| {} |", rows);
+    for (const Series& s : interleave(contenders, kPoints, kRounds))
+      text += fmt::format(" {:.1f} |", least(s));
+    text += "\n";
+  }
+  return text;
+}
+
 std::string document() {
   const std::vector<unsigned char> bytes = picture();
   const std::string file =
@@ -209,7 +244,7 @@ std::string document() {
       "{:.1g}.\n",
       megabytes(0), megabytes(1), megabytes(3), rms, most, native_error);
   std::filesystem::remove(file);
-  return text;
+  return text + curve_table();
 }
 
 }  // namespace

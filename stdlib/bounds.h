@@ -39,6 +39,9 @@ Function hash_of1, hash_of2, hash_of3, hash_of4;
 Function cells_of1, cells_of2, cells_of3, cells_of4;
 Function worley_ways1, worley_ways2, worley_ways3, worley_ways4;
 Function worley_border1, worley_border2, worley_border3, worley_border4;
+Function worley_nearest1, worley_nearest2, worley_nearest3, worley_nearest4;
+Function worley_squares1, worley_squares2, worley_squares3, worley_squares4;
+Function worley_edge1, worley_edge2, worley_edge3, worley_edge4;
 Function worley2, worley3, worley_pair2, worley_pair3;
 
 Function planck, sellmeier, cauchy, fresnel, fresnel_conductor;

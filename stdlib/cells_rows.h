@@ -82,9 +82,10 @@ inline constexpr vm::Builtin kCellsRows[] = {
          .bounds = {vm::BoundsForm::Exact, bounds::cells4, 0, 1}}),
     vm::builtin<Worley2>({.signature = "real worley(real[2] p)",
                           .module = "noise",
-                          .doc = "Distance to the nearest of random points, one in each unit cell. "
-                                 "The 9 cells around are searched: where all of them leave a gap "
-                                 "(rare), a farther point could have been nearer.",
+                          .doc =
+                              "Distance to the nearest of random points, one in each unit cell. "
+                              "The 9 cells around are searched, so it is exact up to 1; a larger "
+                              "one is too large at one place in 600 000. `worley_f1` is not.",
                           .example = "worley([0.3, 0.7])",
                           .derivative = "worley_gradient(p)",
                           .cost = 75,
@@ -92,7 +93,9 @@ inline constexpr vm::Builtin kCellsRows[] = {
     vm::builtin<WorleyPair2>(
         {.signature = "real[2] worley_pair(real[2] p)",
          .module = "noise",
-         .doc = "Distances to the nearest and to the second nearest point of `worley`.",
+         .doc = "Distances to the nearest and to the second nearest point of `worley`. They are "
+                "exact up "
+                "to 1; a larger second one is too large at one place in 6500. `worley_f2` is not.",
          .example = "worley_pair([0.3, 0.7])",
          .derivative = "[worley_gradient(p), worley_second_gradient(p)]",
          .cost = 160,
@@ -132,9 +135,10 @@ inline constexpr vm::Builtin kCellsRows[] = {
          .bounds = {vm::BoundsForm::Range, nullptr, 0, 1}}),
     vm::builtin<Worley3>({.signature = "real worley(real[3] p)",
                           .module = "noise",
-                          .doc = "Distance to the nearest of random points, one in each unit cell. "
-                                 "The 27 cells around are searched: where all of them leave a gap "
-                                 "(rare), a farther point could have been nearer.",
+                          .doc =
+                              "Distance to the nearest of random points, one in each unit cell. "
+                              "The 27 cells around are searched, so it is exact up to 1; a larger "
+                              "one may be too large: not at one of 20 000 random places.",
                           .example = "worley([0.3, 0.7, 1.9])",
                           .derivative = "worley_gradient(p)",
                           .cost = 310,
@@ -142,7 +146,9 @@ inline constexpr vm::Builtin kCellsRows[] = {
     vm::builtin<WorleyPair3>(
         {.signature = "real[2] worley_pair(real[3] p)",
          .module = "noise",
-         .doc = "Distances to the nearest and to the second nearest point of `worley`.",
+         .doc = "Distances to the nearest and to the second nearest point of `worley`. They are "
+                "exact up "
+                "to 1; larger ones may be too large: not at one of 20 000 random places.",
          .example = "worley_pair([0.3, 0.7, 1.9])",
          .derivative = "[worley_gradient(p), worley_second_gradient(p)]",
          .cost = 590,

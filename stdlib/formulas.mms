@@ -40,3 +40,35 @@ real fresnel_conductor_formula(real cos_theta, n, k)
     absorbed_s = 4.0 * ac / (q + c * c + 2.0 * ac);
     absorbed_p = 4.0 * p / (c * c * m * m + 2.0 * p + q);
     return 1.0 - 0.5 * (absorbed_s + absorbed_p);
+
+/// What `worley_nearest` computes.
+/// >>> worley_nearest_formula([0.3, 0.7], 7, [0, 0], 0.0, 2.0)[1]
+/// 0.82462...
+real[3] worley_nearest_formula(real[n] p, integer seed, real[n] period, real jitter, exponent)
+    ways = worley_ways(p, seed, period, jitter, exponent);
+    return array(3, function(j) -> minkowski(array(n, function(k) -> ways[j * n + k]), exponent));
+
+/// What `worley_nearest_squared` computes.
+/// >>> worley_nearest_squared_formula([0.3, 0.7], 7, [0, 0], 0.0, 2.0)[0]
+/// 0.08
+real[3] worley_nearest_squared_formula(
+    real[n] p,
+    integer seed,
+    real[n] period,
+    real jitter,
+    exponent
+)
+    ways = worley_ways(p, seed, period, jitter, exponent);
+    return array(3,
+        function(j) -> fold(#+, 0.0, array(n, function(k) -> ways[j * n + k] * ways[j * n + k])));
+
+/// What `worley_border_distance` computes.
+/// >>> worley_border_distance_formula([0.7, 0.9], 7, [0, 0], 0.0)
+/// 0.1
+real worley_border_distance_formula(real[n] p, integer seed, real[n] period, real jitter)
+    ways = worley_border(p, seed, period, jitter);
+    a    = array(n, function(k) -> ways[k]);
+    b    = array(n, function(k) -> ways[n + k]);
+    step = b - a;
+    size = max(sqrt(fold(#+, 0.0, step * step)), 1e-6);
+    return max(0.5 * fold(#+, 0.0, (b + a) * step) / size, 0.0);

@@ -131,8 +131,9 @@ struct WorleySearch {
     }
   }
 
-  /// Calls `see(l, cell, way)` for all lanes and cells on axes K .. N-1; `cell` is as `index`,
-  /// `way` leads from the cell's point to the lane's.
+  /// Calls `see(l, cell, shift, way)` for all lanes and cells on axes K .. N-1; `cell` is as
+  /// `index`, `way` leads from the cell's point, which has that shift, to the lane's; `at` to its
+  /// middle.
   template <int K, class See>
   MMS_INLINE void visit(const Hashes& h, int cell, int far, R (&at)[N], See see) const {
     for (int i = 0; i < kSides; ++i) {
@@ -152,7 +153,7 @@ struct WorleySearch {
           shifts(finish(mix(h[l], side[K][i][l])), shift);
 #pragma GCC unroll 4
           for (int k = 0; k < N; ++k) way[k] = fused(-jitter[l], shift[k], position[k][l] - at[k]);
-          see(l, here, way);
+          see(l, here, shift, way);
         }
       }
     }
@@ -162,7 +163,8 @@ struct WorleySearch {
   [[gnu::noinline]] void find_by() {
     R at[N];
     visit<0>(
-        start, 0, 0, at, [this](int l, int cell, const R(&way)[N]) __attribute__((always_inline)) {
+        start, 0, 0, at,
+        [this](int l, int cell, const R(&)[N], const R(&way)[N]) __attribute__((always_inline)) {
           const R key = distance_key<metrics>(way, exponent[l]);
           const R a = best[0][l], b = best[1][l], c = best[2][l];
           const std::int32_t i = index[0][l], j = index[1][l], k = index[2][l];
@@ -185,37 +187,58 @@ struct WorleySearch {
       find_by<Metrics::Any>();
   }
 
+  /// Where the middle of the cell of that index is on axis k.
+  MMS_INLINE static R middle_of(std::int32_t cell, int k) {
+    return R((cell >> (3 * k) & 7) - 2) + R(0.5);
+  }
+
   /// Hash of the point that was found in the cell of that index, and the way from the cell's
   /// middle.
   MMS_INLINE Bits found(std::int32_t cell, int l, R (&middle)[N]) const {
     Bits h = start[l];
 #pragma GCC unroll 4
     for (int k = 0; k < N; ++k) {
-      const R by = R((cell >> (3 * k) & 7) - 2);
-      h = mix(h, coordinate(k, l, by));
-      middle[k] = position[k][l] - (by + R(0.5));
+      h = mix(h, coordinate(k, l, middle_of(cell, k) - R(0.5)));
+      middle[k] = position[k][l] - middle_of(cell, k);
     }
     return finish(h);
   }
 
-  /// Puts the neighbour across the nearest border of the nearest point's cell into index[1].
+  /// The way from the j-th point that was found, its shift, and its hash.
+  MMS_INLINE Bits way_of(int j, int l, R (&shift)[N], R (&way)[N]) const {
+    R middle[N];
+    const Bits h = found(index[j][l], l, middle);
+    shifts(h, shift);
+#pragma GCC unroll 4
+    for (int k = 0; k < N; ++k) way[k] = fused(-jitter[l], shift[k], middle[k]);
+    return h;
+  }
+
+  /// Puts the neighbour across the nearest border of the nearest point's cell into index[1]. Steps
+  /// between points are of their shifts, whose differences are exact: those of points that are near
+  /// each other would be lost in the ways.
   [[gnu::noinline]] void find_border() {
     find_by<Metrics::Euclidean>();
-    Reals nearest[N];
+    Reals nearest[N], nearest_shift[N], cell_of[N];
     for (int l = 0; l < kLanes; ++l) {
-      R middle[N], shift[N];
-      shifts(found(index[0][l], l, middle), shift);
-      for (int k = 0; k < N; ++k) nearest[k][l] = fused(-jitter[l], shift[k], middle[k]);
+      R shift[N], way[N];
+      way_of(0, l, shift, way);
+      for (int k = 0; k < N; ++k) {
+        nearest[k][l] = way[k];
+        nearest_shift[k][l] = shift[k];
+        cell_of[k][l] = middle_of(index[0][l], k);
+      }
       best[1][l] = kInf<R>;
     }
     R at[N];
     visit<0>(
-        start, 0, 0, at, [&](int l, int cell, const R(&way)[N]) __attribute__((always_inline)) {
+        start, 0, 0, at,
+        [&](int l, int cell, const R(&shift)[N], const R(&way)[N]) __attribute__((always_inline)) {
           R apart = 0,
             along = 0;  // of the two points; twice the distance to the border, times that
 #pragma GCC unroll 4
           for (int k = 0; k < N; ++k) {
-            const R step = way[k] - nearest[k][l];
+            const R step = fused(-jitter[l], shift[k] - nearest_shift[k][l], cell_of[k][l] - at[k]);
             apart = fused(step, step, apart);
             along = fused(step, way[k] + nearest[k][l], along);
           }
@@ -229,9 +252,43 @@ struct WorleySearch {
 };
 
 /// What a row gives of the points found.
-enum class WorleyPart { Ways, Shifts, Number };
+enum class WorleyPart { Ways, Shifts, Number, Distances, Squares };
 
-/// The kernel of a row: N ways (or shifts) of each of `points` points, or the nearest one's number.
+template <class R, int N>
+MMS_INLINE R square_of(const R (&way)[N]) {
+  R sum = 0;
+#pragma GCC unroll 4
+  for (int k = 0; k < N; ++k) sum += way[k] * way[k];
+  return sum;
+}
+
+/// Minkowski's distance, in the order of `minkowski` (worley.mms) where that takes no powers.
+template <Metrics metrics, class R, int N>
+MMS_INLINE R distance_of(const R (&way)[N], R exponent) {
+  R sum = 0, largest = 0;
+#pragma GCC unroll 4
+  for (int k = 0; k < N; ++k) {
+    const R size = magnitude(way[k]);
+    sum += size;
+    largest = size > largest ? size : largest;
+  }
+  R other = largest;
+  if constexpr (metrics == Metrics::Any) {
+    R powers = 0;  // a way of 2^-100 of the largest is nothing beside it
+#pragma GCC unroll 4
+    for (int k = 0; k < N; ++k) {
+      const R part = magnitude(way[k]) / largest;
+      powers += rough_exp2(exponent * rough_log2(part > R(0x1p-100) ? part : R(0x1p-100)));
+    }
+    const R all = largest * rough_exp2(rough_log2(powers) / exponent);
+    other = (largest > 0) & !(exponent > R(kMostExponent)) ? all : largest;
+  }
+  const R simple = exponent == 1 ? sum : other;
+  return exponent == 2 ? root(square_of(way)) : simple;
+}
+
+/// The kernel of a row: N ways (or shifts) of each of the points, what is made of them, or the
+/// nearest one's number.
 template <class R, int N, WorleyPart part, bool border>
 inline void worley_kernel(const void* const* in, void* const* out, int lanes) {
   using Search = WorleySearch<R, N>;
@@ -243,21 +300,46 @@ inline void worley_kernel(const void* const* in, void* const* out, int lanes) {
       s.find_border();
     else
       s.find();
+    [[maybe_unused]] const bool any = s.metrics() == Metrics::Any;
     for (int j = 0; j < points; ++j) {
 #pragma GCC ivdep
       for (int l = 0; l < Search::kLanes; ++l) {
-        R middle[N], shift[N];
-        const Bits h = s.found(s.index[j][l], l, middle);
+        const auto put = [ out, at = first + l ](int k, R value) __attribute__((always_inline)) {
+          static_cast<R*>(out[k])[at] = value;
+        };
+        R shift[N], way[N];
+        const Bits h = s.way_of(j, l, shift, way);
         if constexpr (part == WorleyPart::Number) {
-          static_cast<R*>(out[0])[first + l] = unit<R>(finish(h ^ kSeed));
+          put(0, unit<R>(finish(h ^ kSeed)));
+        } else if constexpr (part == WorleyPart::Squares) {
+          put(j, square_of(way));
+        } else if constexpr (part == WorleyPart::Distances) {
+          const R exponent = s.exponent[l];
+          put(j, any ? distance_of<Metrics::Any>(way, exponent)
+                     : distance_of<Metrics::Simple>(way, exponent));
         } else {
-          s.shifts(h, shift);
 #pragma GCC unroll 4
           for (int k = 0; k < N; ++k)
-            static_cast<R*>(out[j * N + k])[first + l] =
-                part == WorleyPart::Shifts ? shift[k] : fused(-s.jitter[l], shift[k], middle[k]);
+            put(j * N + k, part == WorleyPart::Shifts ? shift[k] : way[k]);
         }
       }
+    }
+  }
+}
+
+/// The kernel of the distance to the border.
+template <class R, int N>
+inline void worley_edge_kernel(const void* const* in, void* const* out, int lanes) {
+  using Search = WorleySearch<R, N>;
+  Search s;
+  for (int first = 0; first < lanes; first += Search::kLanes) {
+    s.load(in, first, false);
+    s.find_border();
+    for (int l = 0; l < Search::kLanes; ++l) {
+      const R edge =
+          R(0.5) * s.best[1][l];  // infinite: nothing was found, for places are no numbers
+      const R number = edge < kInf<R> ? edge : kNan<R>;
+      static_cast<R*>(out[0])[first + l] = edge < 0 ? R(0) : number;
     }
   }
 }

@@ -47,9 +47,7 @@ real[3] worley_distances(
     real exponent = 2.0,
     jitter = 1.0,
     real[n] period = array(n, function(k) -> 0.0)
-)
-    ways = worley_ways(p, seed, period, jitter, exponent);
-    return array(3, function(j) -> minkowski(array(n, function(k) -> ways[j * n + k]), exponent));
+) = worley_nearest(p, seed, period, jitter, exponent);
 
 /// The distance to the nearest point, F1.
 /// >>> abs(worley_f1([0.3, 0.7]) - worley([0.3, 0.7])) < 1e-6
@@ -105,10 +103,7 @@ real[3] worley_squared(
     integer seed = 0,
     real jitter = 1.0,
     real[n] period = array(n, function(k) -> 0.0)
-)
-    ways = worley_ways(p, seed, period, jitter, 2.0);
-    return array(3,
-        function(j) -> fold(#+, 0.0, array(n, function(k) -> ways[j * n + k] * ways[j * n + k])));
+) = worley_nearest_squared(p, seed, period, jitter, 2.0);
 
 /// How far the border of the nearest point's cell is, exactly: lines along it are of even width.
 /// >>> worley_edge([0.7, 0.9], jitter = 0)
@@ -118,13 +113,7 @@ real worley_edge(
     integer seed = 0,
     real jitter = 1.0,
     real[n] period = array(n, function(k) -> 0.0)
-)
-    ways = worley_border(p, seed, period, jitter);
-    a    = array(n, function(k) -> ways[k]);
-    b    = array(n, function(k) -> ways[n + k]);
-    step = b - a;
-    size = max(sqrt(fold(#+, 0.0, step * step)), 1e-6);
-    return clamp(0.5 * fold(#+, 0.0, (b + a) * step) / size, 0.0, 2.0 * sqrt(n));
+) = worley_border_distance(p, seed, period, jitter);
 
 /// A number in [0, 1) for each cell of the nearest points.
 /// >>> worley_id([0.3, 0.7]) == worley_id([0.31, 0.69])

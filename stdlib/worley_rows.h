@@ -4,7 +4,7 @@
 
 /// \file
 /// The rows of cellular noise in its general form. They give ways between points, whose derivatives
-/// are constant; distances are formed of them in worley.mms.
+/// are constant, and distances, which are differentiated as formulas.mms forms them of the ways.
 
 #include "stdlib/bounds.h"
 #include "stdlib/worley.h"
@@ -16,6 +16,11 @@ template <int N, WorleyPart part, bool border>
 constexpr vm::Builtin worley_row(const vm::Builtin& row) {
   return kernels(row, worley_kernel<float, N, part, border>,
                  worley_kernel<double, N, part, border>);
+}
+
+template <int N>
+constexpr vm::Builtin worley_edge_row(const vm::Builtin& row) {
+  return kernels(row, worley_edge_kernel<float, N>, worley_edge_kernel<double, N>);
 }
 
 // clang-format off: what is alike stands in columns.
@@ -51,6 +56,9 @@ constexpr vm::Builtin worley_row(const vm::Builtin& row) {
 #define MMS_TWO(what) "[" what ", " what "]"
 #define MMS_FORMALS(N) "(real[" #N "] p, integer seed, real[" #N "] period, real jitter"
 
+// What is differentiated in the row's place: formulas.mms.
+#define MMS_TWIN(name) "= " name "(p, seed, period, jitter, exponent)"
+
 #define MMS_WORLEY(N, price)                                                                       \
   worley_row<N, WorleyPart::Ways, false>(                                                          \
       {.signature = "real[" MMS_WAYS##N "] worley_ways" MMS_FORMALS(N) ", exponent)",              \
@@ -67,6 +75,27 @@ constexpr vm::Builtin worley_row(const vm::Builtin& row) {
                             MMS_NIL##N),                                                           \
        .cost = price,                                                                              \
        .bounds = {vm::BoundsForm::Range, bounds::worley_ways##N}}),                                \
+      worley_row<N, WorleyPart::Distances, false>(                                                 \
+          {.signature = "real[3] worley_nearest" MMS_FORMALS(N) ", exponent)",                     \
+           .doc = "How long the ways of `worley_ways` are: F1, F2 and F3.",                        \
+           .example = "worley_nearest" MMS_PLACE##N ", 2.0)",                                      \
+           .derivative = MMS_TWIN("worley_nearest_formula"),                                       \
+           .cost = price,                                                                          \
+           .bounds = {vm::BoundsForm::Lipschitz, bounds::worley_nearest##N, 0}}),                  \
+      worley_row<N, WorleyPart::Squares, false>(                                                   \
+          {.signature = "real[3] worley_nearest_squared" MMS_FORMALS(N) ", exponent)",             \
+           .doc = "The squares of Euclid's lengths of the ways of `worley_ways`.",                 \
+           .example = "worley_nearest_squared" MMS_PLACE##N ", 2.0)",                              \
+           .derivative = MMS_TWIN("worley_nearest_squared_formula"),                               \
+           .cost = price,                                                                          \
+           .bounds = {vm::BoundsForm::Lipschitz, bounds::worley_squares##N, 0}}),                  \
+      worley_edge_row<N>(                                                                          \
+          {.signature = "real worley_border_distance" MMS_FORMALS(N) ")",                          \
+           .doc = "How far the border is that is between the points of `worley_border`.",          \
+           .example = "worley_border_distance" MMS_PLACE##N ")",                                   \
+           .derivative = "= worley_border_distance_formula(p, seed, period, jitter)",              \
+           .cost = price + price / 2,                                                              \
+           .bounds = {vm::BoundsForm::Lipschitz, bounds::worley_edge##N, 0}}),                     \
       worley_row<N, WorleyPart::Shifts, false>(                                                    \
           {.signature = "real[" MMS_WAYS##N "] worley_shifts" MMS_FORMALS(N) ", exponent)",        \
            .doc = "How jitter moves the three points of `worley_ways` out of the middle of their " \

@@ -84,7 +84,8 @@ TEST_CASE("every noise and pattern in a picture: lanes, batches, floats and doub
 /// those are made with, and the searches behind the cellular noises, whose distances have pictures.
 constexpr std::string_view kNoPicture =
     " limited box_response fade widest coverage turn minkowski worley_ways worley_shifts "
-    "worley_cell worley_border worley_border_shifts manhattan euclidean chebyshev ";
+    "worley_cell worley_border worley_border_shifts worley_nearest worley_nearest_squared "
+    "worley_border_distance manhattan euclidean chebyshev ";
 
 /// The names of the functions of those modules.
 std::set<std::string> noises_and_patterns() {

@@ -321,6 +321,12 @@ TEST_CASE("bounds: noise over a small box is about as wide as it is steep") {
                 {"worley_f1(p, 7)", 2},
                 {"worley_f2(p, 7)", 2},
                 {"worley_f1(p, 7, chebyshev)", 2},
+                {"worley_f2(p, 7, 3.0)", 2},
+                {"worley_f3(p, 7, manhattan)", 2},
+                {"worley_gap(p, 7)", 2},
+                {"worley_edge(p, 7)", 2},
+                {"worley_f3([p[0], p[1], 0.4, 0.7], 7)", 2},
+                {"worley_edge([p[0], p[1], 0.4, 0.7], 7)", 2},
                 {"cellnoise(p, 7)", 0},
                 {"gabor(p, [2, 1], 7)", 40},
                 {"gabor_isotropic(p, 2.0, 7)", 40}};
