@@ -36,6 +36,10 @@ const materials::Layout& matte_layout() {
       vm::MaterialLayout{{{int(materials::Lobe::Matte), {{vm::SlotType::Spectrum, true, 0}}, {}}}});
   return layout;
 }
+bool any_nan(std::span<const float> numbers) {
+  return std::any_of(numbers.begin(), numbers.end(), [](float x) { return std::isnan(x); });
+}
+
 const materials::Layout& isotropic_layout() {
   static const materials::Layout layout(
       vm::MaterialLayout{{{int(materials::Lobe::Isotropic), {}, {}}}});
@@ -213,6 +217,11 @@ void Integrator::shade(std::span<const Vertex> group) {
     float* params = &params_[i * stride];
     const bool lost = scripts_.given_up(i);
     if (!lost) scripts_.params(d->shade.material, i, params);
+    if (!lost && any_nan({params, std::size_t(c.material.param_count())})) {
+      // Told, not black: the sample is dropped and counted.
+      paths_[v.from->path].radiance = Spectrumf(std::numeric_limits<float>::quiet_NaN());
+      continue;
+    }
     if (medium) {
       scatter(v, {lost ? isotropic_layout() : c.material, params, true, {}});
       continue;

@@ -27,6 +27,8 @@ class Integrator {
   void trace(std::span<const PixelSample> samples, std::span<FilmSample> stream);
 
   const Scripts& scripts() const { return scripts_; }
+  /// Looks at what scripts say from now on: `Scripts::not_finite`.
+  void watch_scripts() { scripts_.watch(); }
   const FlightCounters& counters() const { return flights_.counters(); }
 
  private:

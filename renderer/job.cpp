@@ -18,6 +18,9 @@ constexpr double kSecondsOfError = 1;
 /// The error is asked for the first time after as many samples: two differences are known then.
 constexpr std::uint32_t kFirstAsked = 16;
 
+/// Samples that were dropped of which it is found out why.
+constexpr std::size_t kExplained = 64;
+
 /// Where the error is asked for again: four times in each doubling.
 std::uint32_t asked_after(std::uint32_t samples) {
   if (samples < kFirstAsked) return kFirstAsked;
@@ -191,9 +194,22 @@ void Job::drop(const PixelSample& s, SampleFate fate) {
   ++(fate == SampleFate::NotANumber ? d.nan
      : fate == SampleFate::Infinite ? d.infinite
                                     : d.overflow);
-  const auto before = std::tuple(d.first_y, d.first_x, d.first_sample);
-  if (d.first_x < 0 || std::tuple(s.y, s.x, s.sample) < before)
-    d.first_x = s.x, d.first_y = s.y, d.first_sample = s.sample;
+  first_dropped_.insert({s.y, s.x, s.sample});
+  if (first_dropped_.size() > kExplained) first_dropped_.erase(std::prev(first_dropped_.end()));
+  std::tie(d.first_y, d.first_x, d.first_sample) = *first_dropped_.begin();
+}
+
+/// Makes the first samples that were dropped once more, and looks at what scripts say.
+void Job::explain_dropped() {
+  if (first_dropped_.empty()) return;
+  std::vector<PixelSample> again;
+  for (const auto& [y, x, sample] : first_dropped_) again.push_back({x, y, sample});
+  std::vector<FilmSample> stream(again.size());
+  Integrator integrator(world_);
+  integrator.watch_scripts();
+  integrator.trace(again, stream);
+  for (const auto& [descriptor, found] : integrator.scripts().not_finite())
+    report_.not_finite.push_back(found);
 }
 
 /// Reports and saves until all threads are done.
@@ -261,6 +277,7 @@ void Job::account(const Integrator& integrator) {
 Rendered Job::finish() {
   report_.paths = paths_done_;
   report_.fault_lanes = fault_lanes_;
+  explain_dropped();
   report_.too_many_faults = too_many_faults_;
   if (report_.script_runs > 0)
     report_.batch_fill =

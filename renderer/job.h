@@ -11,6 +11,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <tuple>
 
 #include "renderer/integrator.h"
 #include "renderer/samples.h"
@@ -47,6 +49,7 @@ class Job {
   void save();
   double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
   void account(const Integrator& integrator);
+  void explain_dropped();
   Rendered finish();
 
   const World& world_;
@@ -73,6 +76,8 @@ class Job {
   int running_ = 0;
   double shown_error_ = 0, error_shown_at_ = 0, saved_at_ = 0;
   Report report_;
+  /// The first samples dropped in scan order, as (y, x, number), at most kExplained.
+  std::set<std::tuple<int, int, int>> first_dropped_;
   std::map<Scripts::FaultPlace, std::uint64_t> faults_;
 };
 

@@ -149,7 +149,7 @@ class Gaze {
   void surface(const vm::Descriptor& d, const CompiledDescriptor& c, const Vertex& v, int lane) {
     Look& l = looks_[v.from->path];
     std::array<double, 2> gradient{0, 0};
-    if (c.bumps)
+    if (c.bumps && !v.point.object->displaced)
       gradient = {scripts_.real(d.shade.gradient[0], lane),
                   scripts_.real(d.shade.gradient[1], lane)};
     const Frame<double> frame = shading_frame(v.point.surface, gradient, v.point.view);

@@ -97,6 +97,13 @@ struct Dropped {
   std::uint64_t count() const { return nan + infinite + overflow; }
 };
 
+/// A number of a script that was not finite, in the first sample of those dropped that shows it.
+struct NotFinite {
+  std::string descriptor, output;
+  /// What the script was told there, as `mms eval` takes it: `--set uv=[0.5,0.25] ...`.
+  std::string settings;
+};
+
 /// Lanes that the machine gave up at one source line.
 struct FaultCount {
   std::string where;  ///< file:line
@@ -128,7 +135,8 @@ struct Report {
   double batch_fill = 0;  ///< mean lanes of a run over the width of a batch; 0 if no run
 
   Dropped dropped;
-  std::vector<FaultCount> faults;  ///< by number, largest first
+  std::vector<NotFinite> not_finite;  ///< one for each descriptor, in the program's order
+  std::vector<FaultCount> faults;     ///< by number, largest first
   std::uint64_t fault_lanes = 0;
   bool stopped = false;          ///< `stop` ended it early
   bool error_reached = false;    ///< `error` ended it

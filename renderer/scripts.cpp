@@ -113,6 +113,7 @@ void Scripts::run(const vm::Descriptor& d, EntryKind kind,
     ++faults_[{f.line.source, f.line.line, f.cause}];
     ++fault_lanes_;
   }
+  if (watching_) inspect(d, entry, int(points.size()));
 }
 
 float Scripts::real(const vm::ValueSource& v, int lane) const {

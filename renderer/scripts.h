@@ -12,6 +12,7 @@
 
 #include "materials/layout.h"
 #include "renderer/cluster.h"
+#include "renderer/render.h"
 #include "renderer/scene.h"
 #include "vm/interpreter.h"
 #include "vm/program.h"
@@ -93,6 +94,11 @@ class Scripts {
   /// Whether the last run gave the lane up: then its outputs have their defaults.
   bool given_up(int lane) const { return !given_up_.empty() && given_up_[lane]; }
 
+  /// From now on looks for outputs that are not finite; `not_finite` has the first of each
+  /// descriptor.
+  void watch() { watching_ = true; }
+  const std::map<const vm::Descriptor*, NotFinite>& not_finite() const { return not_finite_; }
+
   const ScriptCounters& counters() const { return counters_; }
   /// Lanes given up so far, by line and cause.
   struct FaultPlace {
@@ -105,6 +111,8 @@ class Scripts {
 
  private:
   void fill(std::span<const ScriptPoint* const> points, std::uint32_t variables);
+  void inspect(const vm::Descriptor& d, const vm::Entry& entry, int lanes);
+  std::string settings(const vm::Descriptor& d, int lane, int wavelength) const;
   template <class F>
   void put(vm::Variable v, std::span<const ScriptPoint* const> points, F value);
 
@@ -112,6 +120,8 @@ class Scripts {
   std::unique_ptr<vm::Interpreter<float>> machine_;
   std::unique_ptr<vm::InputBatch<float>> inputs_;
   std::vector<bool> given_up_;
+  bool watching_ = false;
+  std::map<const vm::Descriptor*, NotFinite> not_finite_;
   ScriptCounters counters_;
   std::map<FaultPlace, std::uint64_t> faults_;
   std::uint64_t fault_lanes_ = 0;

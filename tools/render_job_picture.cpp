@@ -179,6 +179,11 @@ void print_report(const RenderRequest& request, const std::string& script, const
         "warning: {}: {} samples were not finite and were left out; the first: pixel ({}, {}), "
         "sample {}\n",
         script, r.dropped.count(), r.dropped.first_x, r.dropped.first_y, r.dropped.first_sample);
+  for (const renderer::NotFinite& n : r.not_finite)
+    fmt::print(stderr,
+               "warning: {0}: `{1}` of `{2}` was not finite there\n  = help: to see every value on "
+               "the way of an expression of it: mms eval --trace -f {0}{3}{4} 'EXPRESSION'\n",
+               script, n.output, n.descriptor, n.settings.empty() ? "" : " ", n.settings);
   if (r.denser_samples > 0)
     fmt::print(stderr,
                "warning: {}: volume denser than its bound: {} of {} samples; it was taken to be as "

@@ -167,6 +167,34 @@ TEST_CASE(
   CHECK(r->report.samples < 256);
 }
 
+TEST_CASE("what is not finite is told: descriptor, output and place, once for each descriptor") {
+  const vm::Program p = compile(
+      "surface a\n"
+      "  bsdf = matte(sqrt($uv.x - 0.5));\n"
+      "  emission = 1e-3 * $wavelength;\n"
+      "end\n"
+      "surface b\n  bsdf = matte(0.5); emission = 1 / ($uv.y - $uv.y);\nend\n");
+  const Result<Rendered> r = render(p, scene_of(p, R"({
+    "camera": {"position": [0, 0, 3], "target": [0, 0, 0], "fov": 40}, "environment": {"constant": 1},
+    "objects": [{"quad": {"corner": [-1, 0, 0], "u": [2, 0, 0], "v": [0, 1, 0]}, "surface": "a"},
+      {"quad": {"corner": [-1, -1, 0], "u": [2, 0, 0], "v": [0, 1, 0]}, "surface": "b"}]})"),
+                                    options(8, 2));
+  REQUIRE_MESSAGE(bool(r), (r ? "" : r.error().what));
+  CHECK(r->report.dropped.count() > 0);
+  REQUIRE(r->report.not_finite.size() == 2);
+  const NotFinite &a = r->report.not_finite[0], &b = r->report.not_finite[1];
+  CHECK(a.descriptor == "a");
+  CHECK(a.output == "bsdf");
+  CHECK(b.descriptor == "b");
+  CHECK(b.output == "emission");
+  // The place is one where it happens: the root of what is below 0.
+  const std::size_t uv = a.settings.find("--set uv=[");
+  REQUIRE(uv != std::string::npos);
+  const double x = std::stod(a.settings.substr(uv + 10));
+  CHECK(x < 0.5);
+  CHECK(x >= 0);
+}
+
 TEST_CASE("bump tilts the light: a wall with height a x, lit from one side by a far small disc") {
   // Lambert under a light along l: n . l with n = (-a, 0, 1) / sqrt(1 + a^2).
   const double a = 0.5;
