@@ -48,7 +48,7 @@ TexelPlace<R> texel_place(int whole, R part) {
 /// large n.
 template <class R>
 TexelPlace<R> texel_place(R u, int n, R middle, TexelWrap wrap) {
-  constexpr R kFar = 1024;  // pictures; beyond, there is nothing but the border
+  constexpr R kFar = 256;  // pictures; beyond, there is nothing but the border
   if (wrap == TexelWrap::Repeat)
     u -= std::trunc(u);
   else if (wrap == TexelWrap::Mirror)
@@ -118,7 +118,7 @@ struct TexelFootprint {
 /// in which nothing cancels.
 template <class R>
 TexelFootprint<R> texel_footprint(const R* across, R blur_u, R blur_v, int columns, int rows) {
-  constexpr R kMost = 1024;  // pictures: then no square overflows
+  constexpr R kMost = 256;  // pictures: then no square overflows, and no place an int
   constexpr int kAspect = TexelFootprint<R>::kMostAspect;
   const auto texels = [&](R x, int n) { return std::clamp(x, -kMost, kMost) * R(n); };
   const R u1 = texels(across[0], columns), v1 = texels(across[1], rows);
