@@ -34,6 +34,11 @@ MMS_INLINE LibmComplex libm(Complex z) {
   return r;
 }
 MMS_INLINE Complex of_libm(LibmComplex z) { return {__real__ z, __imag__ z}; }
+/// `r` of an inverse function of `z`: no number where a part of `z` is none, as in float.
+MMS_INLINE Complex of_libm(Complex z, LibmComplex r) {
+  const bool known = (z.re == z.re) & (z.im == z.im);
+  return {known ? __real__ r : kNan<double>, known ? __imag__ r : kNan<double>};
+}
 
 /// A product in which a zero stays zero whatever the other factor: sin(0) e^inf.
 MMS_INLINE double damped(double zero, double x) { return zero == 0 ? zero : zero * x; }
@@ -218,14 +223,14 @@ MMS_INLINE Complex atanh_complex(Complex z) {
   };
 MMS_COMPLEX(ComplexLog, 0, log_complex(z), of_libm(__builtin_clog(libm(z))))
 MMS_COMPLEX(ComplexSqrt, 0, sqrt_complex(z), of_libm(__builtin_csqrt(libm(z))))
-MMS_COMPLEX(ComplexAsin, 0, asin_complex(z), of_libm(__builtin_casin(libm(z))))
-MMS_COMPLEX(ComplexAcos, 0, acos_complex(z), of_libm(__builtin_cacos(libm(z))))
+MMS_COMPLEX(ComplexAsin, 0, asin_complex(z), of_libm(z, __builtin_casin(libm(z))))
+MMS_COMPLEX(ComplexAcos, 0, acos_complex(z), of_libm(z, __builtin_cacos(libm(z))))
 MMS_COMPLEX(ComplexAtan, 0, turned_right(atanh_complex(turned_left(z))),
-            of_libm(__builtin_catan(libm(z))))
+            of_libm(z, __builtin_catan(libm(z))))
 MMS_COMPLEX(ComplexAsinh, 0, turned_right(asin_complex(turned_left(z))),
-            of_libm(__builtin_casinh(libm(z))))
-MMS_COMPLEX(ComplexAcosh, 0, acosh_complex(z), of_libm(__builtin_cacosh(libm(z))))
-MMS_COMPLEX(ComplexAtanh, 0, atanh_complex(z), of_libm(__builtin_catanh(libm(z))))
+            of_libm(z, __builtin_casinh(libm(z))))
+MMS_COMPLEX(ComplexAcosh, 0, acosh_complex(z), of_libm(z, __builtin_cacosh(libm(z))))
+MMS_COMPLEX(ComplexAtanh, 0, atanh_complex(z), of_libm(z, __builtin_catanh(libm(z))))
 MMS_COMPLEX(ComplexExp, im, exp_complex<Reduction>(z), of_libm(__builtin_cexp(libm(z))))
 MMS_COMPLEX(ComplexSin, re, turned_right(sinh_complex<Reduction>(turned_left(z))),
             turned_right(of_libm(__builtin_csinh(libm(turned_left(z))))))

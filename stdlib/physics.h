@@ -35,10 +35,11 @@ template <class R>
 struct Fresnel {
   [[gnu::always_inline]] static R eval(R cos_theta, R ior) {
     const double a = magnitude(cos_theta), c = a > 1 ? 1.0 : a, eta = ior;
-    const double e = (eta - 1) * (eta + 1), eta2 = eta * eta;
-    const double g2 = fused(c, c, e), g = root(g2 > 0 ? g2 : 0.0);
-    const double s = c + g, p = fused(eta2, c, g);
-    const double rs = e / (s * s), rp = e * fused(eta2 + 1, c * c, -1.0) / (p * p);
+    const double e = (eta - 1) * (eta + 1), eta2 = eta * eta, s2 = (1 - c) * (1 + c);
+    // Of three terms around 1 those that cancel come first.
+    const double g2 = eta2 < 0.5 ? fused(eta, eta, -s2) : fused(c, c, e);
+    const double g = root(g2 > 0 ? g2 : 0.0), s = c + g, p = fused(eta2, c, g);
+    const double rs = e / (s * s), rp = e * fused(eta2 * c, c, -s2) / (p * p);
     const double r = 0.5 * (rs * rs + rp * rp);
     return R(e == 0 ? 0.0 : g2 <= 0 ? 1.0 : r > 1 ? 1.0 : r + (g2 - g2));
   }

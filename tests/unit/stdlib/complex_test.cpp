@@ -110,11 +110,15 @@ TEST_CASE("zeros, infinities and NaN of every complex function are those of C99 
       const float re = parts[i % 7] * (i / 7 % 2 ? -1.0f : 1.0f);
       const float im = parts[i / 14 % 7] * (i / 98 ? -1.0f : 1.0f);
       const bool unknown = std::isnan(re) || std::isnan(im);
-      if (unknown && oracle.name.starts_with("a")) continue;  // NaN in both parts: of_limited
       INFO(oracle.name << " " << re << " " << im);
       const LC exact = oracle.exact(LC(re, im));
       const auto got = run<float>(row_of(oracle.name), {{re}, {im}});
       const auto got64 = run<double>(row_of(oracle.name), {{re}, {im}});
+      if (unknown && oracle.name.starts_with("a")) {  // less than C99 asks: no number at all
+        for (std::size_t part : {0u, 1u})
+          CHECK((std::isnan(got[part][0]) && std::isnan(got64[part][0])));
+        continue;
+      }
       const float expected[] = {float(exact.real()), float(exact.imag())};
       // The standard leaves signs open where no angle tells them.
       const bool turns =

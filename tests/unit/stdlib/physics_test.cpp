@@ -64,6 +64,11 @@ TEST_CASE("fresnel against the textbook form in long double") {
     CHECK(call<double>(row, c, ior) ==
           doctest::Approx(materials::fresnel_dielectric<double>(c, ior)).epsilon(1e-12));
   }
+  for (float ior = 1e-30f; ior < 1e15f; ior *= 7) {  // along the normal
+    const L exact = powl((1 - L(ior)) / (1 + L(ior)), 2);
+    CHECK(float_error(call<float>(row, 1.0f, ior), exact) < 1.01);
+    CHECK(std::fabs(call<double>(row, 1.0, double(ior)) / double(exact) - 1) < 1e-14);
+  }
   CHECK(call<float>(row, 1.0f, 1.5f) == doctest::Approx(0.04));
   CHECK(call<float>(row, 0.3f, 1.0f) == 0);
   CHECK(call<float>(row, 0.0f, 1.5f) == 1);
