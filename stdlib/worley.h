@@ -26,16 +26,19 @@ MMS_INLINE double rough_exp2(double x) { return __builtin_exp2(x); }
 /// part is divided out: by themselves they leave the range of float where exponents are large.
 template <class R, int N>
 MMS_INLINE R log_of_minkowski(const R (&way)[N], R exponent) {
-  R logs[N], largest = R(-100), powers = 0;
+  R largest = R(0x1p-100), powers = 0;
 #pragma GCC unroll 4
   for (int k = 0; k < N; ++k) {
     const R size = magnitude(way[k]);
-    logs[k] = rough_log2(size > R(0x1p-100) ? size : R(0x1p-100));
-    largest = logs[k] > largest ? logs[k] : largest;
+    largest = size > largest ? size : largest;
   }
+  const R least = R(0x1p-60) * largest;  // nothing beside it; also for a way that is no number
 #pragma GCC unroll 4
-  for (int k = 0; k < N; ++k) powers += rough_exp2(exponent * (logs[k] - largest));
-  return largest + rough_log2(powers) / exponent;
+  for (int k = 0; k < N; ++k) {
+    const R size = magnitude(way[k]);
+    powers += rough_exp2(exponent * rough_log2((size > least ? size : least) / largest));
+  }
+  return rough_log2(largest) + rough_log2(powers) / exponent;
 }
 
 /// Exponents of Minkowski's distances beyond this one count as infinite.
