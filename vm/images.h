@@ -84,9 +84,9 @@ inline constexpr double kImagePointError = 0x1p-19;
 /// them move, by some 50 units in the last place, with the axes of the pixel.
 inline constexpr double kImagePixelError = 0x1p-13;
 
-/// How far it may be outside what its texels span, as a part of their largest magnitude: 10 roundings
-/// of weights and sums along each axis, 34 of sums over probes, 5 of levels. Of a slope too, which is
-/// a mean of differences.
+/// How far it may be outside what its texels span, as a part of their largest magnitude: 10
+/// roundings of weights and sums along each axis, 34 of sums over probes, 5 of levels. Of a slope
+/// too, which is a mean of differences.
 inline constexpr double kImageRounding = 0x1p-18;
 
 /// An open picture or curve. Immutable; any number of threads may ask.
