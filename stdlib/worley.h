@@ -22,23 +22,18 @@ MMS_INLINE double rough_log2(double x) { return __builtin_log2(x); }
 MMS_INLINE float rough_exp2(float x) { return exp2_float(x); }
 MMS_INLINE double rough_exp2(double x) { return __builtin_exp2(x); }
 
-/// The binary logarithm of Minkowski's distance. Powers are taken of what is left when the largest
-/// part is divided out: by themselves they leave the range of float where exponents are large.
+/// What a power by `exponent` of Minkowski's distance is, over that of the largest part. By
+/// themselves powers leave the range of float where exponents are large.
 template <class R, int N>
-MMS_INLINE R log_of_minkowski(const R (&way)[N], R exponent) {
-  R largest = R(0x1p-100), powers = 0;
-#pragma GCC unroll 4
-  for (int k = 0; k < N; ++k) {
-    const R size = magnitude(way[k]);
-    largest = size > largest ? size : largest;
-  }
+MMS_INLINE R powers_over(R largest, const R (&way)[N], R exponent) {
   const R least = R(0x1p-60) * largest;  // nothing beside it; also for a way that is no number
+  R powers = 0;
 #pragma GCC unroll 4
   for (int k = 0; k < N; ++k) {
     const R size = magnitude(way[k]);
     powers += rough_exp2(exponent * rough_log2((size > least ? size : least) / largest));
   }
-  return rough_log2(largest) + rough_log2(powers) / exponent;
+  return powers;
 }
 
 /// Exponents of Minkowski's distances beyond this one count as infinite.
@@ -60,7 +55,12 @@ MMS_INLINE R distance_key(const R (&way)[N], R exponent) {
   }
   if constexpr (metrics == Metrics::Euclidean) return squares;
   R other = 0;
-  if constexpr (metrics == Metrics::Any) other = log_of_minkowski(way, exponent);
+  if constexpr (metrics == Metrics::Any) {  // the binary logarithm of the distance
+    R some = R(0x1p-100);
+#pragma GCC unroll 4
+    for (int k = 0; k < N; ++k) some = magnitude(way[k]) > some ? magnitude(way[k]) : some;
+    other = rough_log2(some) + rough_log2(powers_over(some, way, exponent)) / exponent;
+  }
   const R key = exponent == 1 ? sum : exponent > R(kMostExponent) ? largest : other;
   return exponent == 2 ? squares : key;
 }
@@ -277,12 +277,7 @@ MMS_INLINE R distance_of(const R (&way)[N], R exponent) {
   }
   R other = largest;
   if constexpr (metrics == Metrics::Any) {
-    R powers = 0;  // a way of 2^-100 of the largest is nothing beside it
-#pragma GCC unroll 4
-    for (int k = 0; k < N; ++k) {
-      const R part = magnitude(way[k]) / largest;
-      powers += rough_exp2(exponent * rough_log2(part > R(0x1p-100) ? part : R(0x1p-100)));
-    }
+    const R powers = powers_over(largest, way, exponent);
     const R all = largest * rough_exp2(rough_log2(powers) / exponent);
     other = (largest > 0) & !(exponent > R(kMostExponent)) ? all : largest;
   }
