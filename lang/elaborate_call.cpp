@@ -396,8 +396,8 @@ Value Elaborator::call_function_value(const Value& f, std::vector<BoundArgument>
 
 Value Elaborator::call_lambda(const FunctionValue& f, std::vector<BoundArgument>& args, Span span) {
   const Expr& e = (*f.graph)[f.lambda];
-  if (args.size() != e.formals.size()) {
-    diagnostics_.add(Diag::ArgumentCount, span, "the function", e.formals.size(), args.size())
+  if (args.size() != e.rare->formals.size()) {
+    diagnostics_.add(Diag::ArgumentCount, span, "the function", e.rare->formals.size(), args.size())
         .note(e.span, "defined here");
     return {};
   }
@@ -407,7 +407,7 @@ Value Elaborator::call_lambda(const FunctionValue& f, std::vector<BoundArgument>
   }
   std::vector<int> order;
   std::string why;
-  if (!bind_formals(e.formals, args, order, why)) {
+  if (!bind_formals(e.rare->formals, args, order, why)) {
     std::vector<TypeId> types;
     for (const BoundArgument& a : args) types.push_back(a.value.type);
     diagnostics_.add(Diag::NoOverload, span, "function", types_.spell(types))
@@ -420,10 +420,10 @@ Value Elaborator::call_lambda(const FunctionValue& f, std::vector<BoundArgument>
     const BoundArgument& given = args[static_cast<std::size_t>(order[i])];
     Binding b;
     b.value = given.value;
-    if (e.formals[i].type)
-      b.value =
-          convert(b.value, resolve_type({f.graph, scope}, e.formals[i].type, nullptr), given.span);
-    declare(scope, e.formals[i].name, std::move(b));
+    if (e.rare->formals[i].type)
+      b.value = convert(b.value, resolve_type({f.graph, scope}, e.rare->formals[i].type, nullptr),
+                        given.span);
+    declare(scope, e.rare->formals[i].name, std::move(b));
   }
   frames_.push_back({nullptr, dynamic_, false, inlined_});
   diagnostics_.enter_call(span, "function");

@@ -86,10 +86,17 @@ bool Elaborator::is_generic(Context c, const Function& f) {
          });
 }
 
+/// What the check made is forgotten, for the next one to be made in the same memory.
 void Elaborator::check_function(FunctionDecl* d) {
+  function_ = new_function("check " + d->function().name.text);
+  const Mark before = mark();
+  check_body(d);
+  forget_function(before);
+}
+
+void Elaborator::check_body(FunctionDecl* d) {
   const Function& f = d->function();
   const Context c{d->graph, d->scope};
-  function_ = new_function("check " + f.name.text);
   NameCheck(
       *d->graph, [&](const Path& path) { return find(c, path) != nullptr; },
       [&](const Path& path, Diag id, const auto& inside) { unknown_name(c, path, id, inside); })

@@ -58,7 +58,7 @@ Value Elaborator::expr(Context c, ExprHandle h) {
       break;
     case Expr::Form::String:
       v.type = TypeTable::kString;
-      v.text = e.text;
+      v.text = e.rare->text;
       break;
     case Expr::Form::Name:
       v = expr_name(c, e);
@@ -157,8 +157,10 @@ Value Elaborator::evaluate_constant(Binding& b) {
   auto cached = b.cache.find(function_);
   if (cached != b.cache.end()) return cached->second;
   if (!b.cache.empty())
-    if (std::optional<Value> known = carried(b.cache.begin()->second))
+    if (std::optional<Value> known = carried(b.cache.begin()->second)) {
+      carried_.push_back(&b);
       return b.cache[function_] = std::move(*known);
+    }
   if (b.circular) return {};
   if (b.busy) {
     report_circle(b);
@@ -180,6 +182,7 @@ Value Elaborator::evaluate_constant(Binding& b) {
     const TypeId type = resolve_type({b.stated_in, b.scope}, b.stated, nullptr);
     v = convert(v, type, (*b.graph)[b.expr].span, (*b.stated_in)[b.stated].span);
   }
+  if (!passes(b.scope)) ++kept_;
   return b.cache[function_] = v;
 }
 
@@ -330,9 +333,9 @@ Value Elaborator::expr_lazy(Context c, const Expr& e) {
 Value Elaborator::expr_chain(Context c, const Expr& e) {
   Value all;
   Value left = expr(c, e.args[0]);
-  for (std::size_t i = 0; i < e.ops.size(); ++i) {
+  for (std::size_t i = 0; i < e.rare->ops.size(); ++i) {
     Value right = expr(c, e.args[i + 1]);
-    const Value one = compare(e.ops[i], left, right, e.span);
+    const Value one = compare(e.rare->ops[i], left, right, e.span);
     all = i == 0 ? one : logical(Operator::And, all, one);
     left = std::move(right);
   }

@@ -145,6 +145,7 @@ Value Elaborator::gradient_of(const Value& f, const Value& point) {
   for (const Ref r : at) {
     x.push_back(stand_in());
     stands_for_[x.back()] = localise(r);
+    ++kept_;
   }
   std::size_t next = 0;
   const auto value = call_for_real(f, unflatten(point.type, x, next));
@@ -167,6 +168,7 @@ Value Elaborator::gradient_of(const Value& f, const Value& point) {
 Value Elaborator::at_each_wavelength(const Value& f, const Value& spectrum) {
   const std::uint32_t first = static_cast<std::uint32_t>(module.functions[function_].nodes.size());
   const Ref x = stand_in();
+  ++kept_;
   stands_for_[x] = real(0);  // a wavelength is the same in all of the pixel
   const auto value = call_for_real(f, scalar(TypeTable::kReal, x));
   if (!value) return {};

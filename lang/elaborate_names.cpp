@@ -49,6 +49,7 @@ Binding* Elaborator::declare(Scope* scope, const Name& name, Binding binding) {
 }
 
 void Elaborator::declare_function(Context c, FunctionHandle h) {
+  if (passes(c.scope)) ++kept_;
   decls_.push_back({c.graph, h, c.scope, c.scope->library, false});
   Binding b;
   b.form = Binding::Form::Functions;

@@ -129,7 +129,7 @@ TypeId Elaborator::peek_call(const Value& f, const std::vector<BoundArgument>& a
   if (!fn.path.empty()) return peek_call(Context{fn.graph, fn.scope}, fn.path, args);
   if (!fn.lambda || peeking_ >= kDeepestPeek) return kPoison;
   const Expr& e = (*fn.graph)[fn.lambda];
-  if (e.formals.size() != args.size()) return kPoison;
+  if (e.rare->formals.size() != args.size()) return kPoison;
   Scope inside;
   inside.parent = fn.scope;
   inside.library = fn.scope->library;
@@ -137,9 +137,9 @@ TypeId Elaborator::peek_call(const Value& f, const std::vector<BoundArgument>& a
   for (std::size_t k = 0; k < args.size(); ++k) {
     Binding b;
     if (args[k].name) return kPoison;
-    b.value.type =
-        e.formals[k].type ? resolve_type(c, e.formals[k].type, nullptr) : args[k].value.type;
-    inside.names.emplace(e.formals[k].name.text, std::move(b));
+    b.value.type = e.rare->formals[k].type ? resolve_type(c, e.rare->formals[k].type, nullptr)
+                                           : args[k].value.type;
+    inside.names.emplace(e.rare->formals[k].name.text, std::move(b));
   }
   ++peeking_;
   const TypeId type = peek(c, e.args[0]);

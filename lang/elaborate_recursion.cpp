@@ -176,6 +176,7 @@ Ref Elaborator::call_site(Instance& instance, const std::vector<Ref>& args) {
     const Ref arg = localise(instance.captures[k]);
     module.functions[function_].nodes[r.node].args.push_back(arg);
   }
+  ++kept_;
   instance.sites.push_back({function_, r.node});
   return r;
 }

@@ -39,7 +39,26 @@ std::optional<std::string> read_file(const std::filesystem::path& path) {
 
 }  // namespace
 
+Elaborator::Mark Elaborator::mark() {
+  carried_.clear();
+  return {scopes_.size(), kept_};
+}
+
+/// The scopes made since, if nothing refers to them any more.
+bool Elaborator::forget_scopes(Mark since) {
+  if (kept_ != since.kept) return false;
+  for (Binding* b : carried_) b->cache.erase(function_);
+  scopes_.erase(scopes_.begin() + std::ptrdiff_t(since.scopes), scopes_.end());
+  return true;
+}
+
+/// The current function, which is the last, and its scopes, if nothing refers to them any more.
+void Elaborator::forget_function(Mark since) {
+  if (forget_scopes(since)) module.functions.pop_back();
+}
+
 FunctionId Elaborator::new_function(std::string name) {
+  ++kept_;
   module.functions.push_back({std::move(name), {}, {}, {}, false});
   return static_cast<FunctionId>(module.functions.size() - 1);
 }
@@ -281,6 +300,7 @@ void Elaborator::check_constant(const Graph& graph, const Constant& k, Scope* sc
 
 /// Makes the current function, whose value is `v`, visible from outside.
 void Elaborator::export_value(const std::string& name, const Value& v) {
+  ++kept_;
   if (v.poison() || !types_.is_numeric(v.type)) return;
   std::vector<Ref> refs;
   flatten(v, refs);
@@ -305,9 +325,11 @@ void Elaborator::descriptor(const NamedDescriptor& named) {
   e.name = named.name;
   e.function = function_;
   line_ = line_of(d.name.span);
+  const Mark before = mark();
   Scope* inner = new_scope(named.scope);
   body({named.graph, inner}, d.body);
   outputs(e, inner);
+  forget_scopes(before);
   descriptors.push_back(std::move(e));
 }
 
