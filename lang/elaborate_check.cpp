@@ -40,7 +40,7 @@ Value Elaborator::unknown_value(TypeId type) {
     std::size_t next = 0;
     return unflatten(type, refs, next);
   }
-  if (type == TypeTable::kMaterial) return call_library("matte", {}, {});
+  if (type == kMaterial) return call_library("matte", {}, {});
   Value v;
   v.type = type;
   if (t.form == Type::Form::Array)
@@ -105,11 +105,11 @@ void Elaborator::check_body(FunctionDecl* d) {
   std::vector<Value> formals;
   for (const Formal& formal : f.formals) {
     const TypeId type = resolve_type(c, formal.type, nullptr);
-    if (type == TypeTable::kPoison) return;
+    if (type == kPoison) return;
     formals.push_back(unknown_value(type));
   }
   const TypeId result = resolve_type(c, f.result, nullptr);
-  if (result == TypeTable::kPoison) return;
+  if (result == kPoison) return;
   unknown_arguments_ = !formals.empty();
   const Value v = invoke(d, formals, {}, result, f.header);
   unknown_arguments_ = false;

@@ -107,7 +107,7 @@ void Elaborator::declare_generics(Scope* scope, const Function& f, const Generic
   }
   for (const auto& [name, size] : g.dims) {
     Binding b;
-    b.value = scalar(TypeTable::kInteger, integer(size));
+    b.value = scalar(kInteger, integer(size));
     declare(scope, {name, f.name.span}, std::move(b));
   }
 }

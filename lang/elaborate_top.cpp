@@ -215,7 +215,7 @@ void Elaborator::describe_param(const Graph& graph, const Param& p, Scope* scope
     if (k) info.value.push_back(k->type == SlotType::Real ? k->f64 : k->integer);
   }
   auto number = [&](ExprHandle h) -> std::optional<double> {
-    const Value n = convert(expr(c, h), TypeTable::kReal, graph[h].span);
+    const Value n = convert(expr(c, h), kReal, graph[h].span);
     const vm::Constant* k = n.poison() ? nullptr : known(n.refs[0]);
     if (!n.poison() && !k)
       diagnostics_.add(Diag::NeedsConstant, graph[h].span, "the range of a param");
@@ -239,7 +239,7 @@ void Elaborator::describe_param(const Graph& graph, const Param& p, Scope* scope
           .help("there are `label`, `unit` and `page`");
       continue;
     }
-    *slot = convert(text, TypeTable::kString, graph[m.value].span).text;
+    *slot = convert(text, kString, graph[m.value].span).text;
   }
   params.push_back(std::move(info));
 }
@@ -346,16 +346,15 @@ void Elaborator::outputs(ElaboratedDescriptor& e, Scope* scope) {
       case OutputRow::Shape::Material:
         return call_library(surface ? "matte" : "isotropic", {}, d.name.span);
       case OutputRow::Shape::Spectrum:
-        return widen(scalar(TypeTable::kReal, real(surface && o == Output::Scattering ? 1 : 0)),
-                     TypeTable::kSpectrum);
+        return widen(scalar(kReal, real(surface && o == Output::Scattering ? 1 : 0)), kSpectrum);
       case OutputRow::Shape::Real:
-        return scalar(TypeTable::kReal, real(0));
+        return scalar(kReal, real(0));
       case OutputRow::Shape::Real2:
         break;
     }
     Value zero;
-    zero.type = types_.array(TypeTable::kReal, 2);
-    zero.parts = {scalar(TypeTable::kReal, real(0)), scalar(TypeTable::kReal, real(0))};
+    zero.type = types_.array(kReal, 2);
+    zero.parts = {scalar(kReal, real(0)), scalar(kReal, real(0))};
     return zero;
   };
   for (std::size_t o = 0; o < vm::kOutputCount; ++o) {

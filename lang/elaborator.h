@@ -91,7 +91,7 @@ class Elaborator {
   struct Signature {
     Graph graph;
     std::vector<vm::SlotType> params, results;
-    TypeId result = TypeTable::kPoison;
+    TypeId result = kPoison;
     bool all_real = true;  ///< then a spectrum may stand for any argument
     const Function& function() const { return graph.functions[0]; }
   };
@@ -104,7 +104,7 @@ class Elaborator {
     std::vector<Ref> captures;
     std::vector<CallSite> sites;
     std::size_t own_params = 0;
-    TypeId result = TypeTable::kPoison;
+    TypeId result = kPoison;
     bool complete = false;
   };
   struct Frame {
