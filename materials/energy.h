@@ -50,8 +50,8 @@ inline constexpr double kMinMeanAlpha = 1e-5;
 inline constexpr int kAlpha = 65, kDirection = 65, kMean = 193;
 inline constexpr int kStretchedAlpha = 14, kAspect = 9, kAzimuth = 9, kStretchedDirection = 33;
 inline constexpr int kStretchedMean = 65, kMeanAspect = 12;
-/// [1] where the index falls on the far side: the loss follows the critical angle there.
-inline constexpr int kInterfaceAlpha = 17, kIndex[] = {29, 49}, kInterfaceDirection[] = {61, 81};
+/// [1] where the index falls on the far side: the loss has a ridge along the critical angle there.
+inline constexpr int kInterfaceAlpha = 19, kIndex[] = {29, 37}, kInterfaceDirection[] = {61, 75};
 inline constexpr int kInterfaceMean = 65;
 inline constexpr int kGloss = 33, kCoatAlpha = 25, kCoatIndex = 37, kCoatDirection = 49;
 inline constexpr double kLargestGloss = 5e4;
@@ -76,6 +76,11 @@ inline R alpha(R a, R largest) {
   return std::sqrt(a / largest);
 }
 
+template <class R>
+inline R interface_alpha(R a) {
+  return std::cbrt(a);
+}
+
 /// Of a coat: finer where facets are all but flat.
 template <class R>
 inline R coat_alpha(R a) {
@@ -94,12 +99,44 @@ inline R aspect(R quotient) {
   return std::log(quotient) / std::numbers::ln10_v<R>;
 }
 
-/// The same for an interface, whose critical angle may be anywhere: two parts `direction`, one
-/// angle; and next to grazing, where the loss grows as z^0.8 for indices near 1, finer still.
+/// Finer towards 0, where it is grazing: losses grow as z^0.8 there for indices near 1.
 template <class R>
-inline R interface_direction(R z, R s, R width) {
-  const R even = (2 * direction(z, s, width) + std::atan2(z, s) * (2 / std::numbers::pi_v<R>)) / 3;
-  return (even + std::sqrt(even)) / 2;
+inline R towards_grazing(R x) {
+  return (x + std::sqrt(x)) / 2;
+}
+
+/// The same for an interface: two parts `direction`, one angle.
+template <class R>
+inline R dense_direction(R z, R s, R width) {
+  return towards_grazing(
+      (2 * direction(z, s, width) + std::atan2(z, s) * (2 / std::numbers::pi_v<R>)) / 3);
+}
+
+/// The same where the index falls, `eta` < 1. A part of it climbs within `width` of the critical
+/// angle, of cosine `zc`; less of it the rougher the facets are, as they blur the ridge away.
+template <class R>
+inline R along_ridge(R z, R s, R alpha, R zc, R eta) {
+  const R w = width(alpha), scale = R(1.5) * w, share = R(1.3) * (1 - alpha) * (1 - alpha);
+  const auto climb = [scale](R sine) { return sine / std::sqrt(sine * sine + scale * scale); };
+  const R from = climb(-zc), ridge = (climb(z * eta - s * zc) - from) / (climb(eta) - from);
+  const R angle = std::atan2(z, s) * (2 / std::numbers::pi_v<R>);
+  return (towards_grazing(direction(z, s, w)) + R(0.7) * towards_grazing(angle) + share * ridge) /
+         (R(1.7) + share);
+}
+
+/// That, moved by a quotient of linear functions that puts the critical angle at one place for
+/// every index: nearly at 1/2, but for rough facets.
+template <class R>
+inline R rare_direction(R z, R s, R alpha, R eta) {
+  const R zc = std::sqrt((1 - eta) * (1 + eta)), smooth = (1 - alpha) * (1 - alpha);
+  const R at = std::clamp(along_ridge(zc, eta, alpha, zc, eta), R(0.1), R(0.9));
+  const R c = R(0.5) + (at - R(0.5)) * smooth, u = along_ridge(z, s, alpha, zc, eta);
+  return u * (1 - c) / (u * (1 - 2 * c) + c);
+}
+
+template <class R>
+inline R interface_direction(R z, R s, R alpha, R eta) {
+  return eta < 1 ? rare_direction(z, s, alpha, eta) : dense_direction(z, s, width(alpha));
 }
 
 /// Of the relative index `eta`: 0 at 1, towards 1 for 0 and infinity. Next to 1, Fresnel's factor
@@ -187,8 +224,8 @@ struct InterfaceLoss {
     using namespace axes;
     const R z = std::abs(w.z), s = std::sqrt(w.x * w.x + w.y * w.y);
     const int falls = eta < 1, directions = kInterfaceDirection[falls], indices = kIndex[falls];
-    const auto d = Stencil<R>::at(interface_direction(z, s, width(alpha)), directions);
-    const auto a = Stencil<R>::at(axes::alpha(alpha, R(1)), kInterfaceAlpha);
+    const auto d = Stencil<R>::at(interface_direction(z, s, alpha, eta), directions);
+    const auto a = Stencil<R>::at(interface_alpha(alpha), kInterfaceAlpha);
     const auto n = Stencil<R>::at(index(eta), indices);
     const int n1 = coefficients(directions), n0 = n1 * coefficients(indices);
     const R l = interpolate(tables->loss[falls], a, n0, n, n1, d);

@@ -115,12 +115,12 @@ double from_log(double x, double largest) {
 }
 
 /// cos theta from its place on axes::interface_direction, by halving.
-double interface_cosine(double place, double width) {
+double interface_cosine(double place, double alpha, double eta) {
   double lo = 0, hi = 1;
   for (int i = 0; i < 60; ++i) {
     const double angle = (lo + hi) * kPi<double> / 4;
-    (axes::interface_direction(std::sin(angle), std::cos(angle), width) < place ? lo : hi) =
-        (lo + hi) / 2;
+    const double at = axes::interface_direction(std::sin(angle), std::cos(angle), alpha, eta);
+    (at < place ? lo : hi) = (lo + hi) / 2;
   }
   return std::sin(lo * kPi<double> / 2);
 }
@@ -130,9 +130,9 @@ void write_interface(std::FILE* to, const std::string& name, bool rising) {
   const auto table = write(
       to, name,
       Grid({kInterfaceAlpha, kIndex[!rising], kInterfaceDirection[!rising]}, [&](const double* x) {
-        const double a = std::max(x[0] * x[0], 1e-5);
-        const double z = interface_cosine(std::min(x[2], 1 - kLeast), axes::width(a));
-        return interface_loss(a, index_at(x[1], rising), std::max(z, kLeast * a));
+        const double a = std::max(x[0] * x[0] * x[0], 1e-5), eta = index_at(x[1], rising);
+        const double z = interface_cosine(std::min(x[2], 1 - kLeast), a, eta);
+        return interface_loss(a, eta, std::max(z, kLeast * a));
       }));
   const InterfaceTables tables{{table.data(), table.data()}, {}};
   write(to, name + "Mean", Grid({kInterfaceMean, kIndex[!rising]}, [&](const double* x) {
