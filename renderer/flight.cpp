@@ -35,19 +35,19 @@ void Carried::rescale() {
   light_pdf *= scale;
 }
 
-Spectrumf Carried::weighted(double light_density, Estimator estimator) const {
-  const auto density = [&](float p, float light) {
-    return double(p) + (light_density > 0 ? light_density * light : 0);
+Spectrumf Carried::weighted(Technique by, double light_density, Estimator estimator) const {
+  // 1 / density, times density^2 over the sum of both techniques' squares.
+  const auto weight = [&](float scattering, float light) {
+    const double s = scattering, l = light_density > 0 ? light_density * light : 0;
+    const double squares = s * s + l * l;
+    return squares > 0 ? (by == Technique::Light ? l : s) / squares : 0;
   };
-  if (estimator == Estimator::Clustered || estimator == Estimator::Four) {
-    const double sum = density(pdf.sum(), light_pdf.sum());
-    return sum > 0 ? beta * float(1 / sum) : Spectrumf(0.0f);
-  }
-  const double hero = density(pdf[0], light_pdf[0]);
-  if (!(hero > 0)) return Spectrumf(0.0f);
-  if (estimator == Estimator::Unweighted) return beta * float(1 / (kWavelengths * hero));
+  if (estimator == Estimator::Clustered || estimator == Estimator::Four)
+    return beta * float(weight(pdf.sum(), light_pdf.sum()));
+  const double hero = weight(pdf[0], light_pdf[0]);
+  if (estimator == Estimator::Unweighted) return beta * float(hero / kWavelengths);
   Spectrumf one;
-  one[0] = beta[0] * float(1 / hero);
+  one[0] = beta[0] * float(hero);
   return one;
 }
 
@@ -296,8 +296,8 @@ void Flights::cross(Flight& f, const ScriptPoint& point, const Spectrumf& scatte
 void Flights::add_crossing_emission(const Flight& f, const ScriptPoint& point,
                                     const Spectrumf& emitted, const PathView& path) {
   const int object = int(point.object - world_.scene.objects.data());
-  const double light = world_.lights.pdf(Vec3d(f.origin), object, point.surface);
-  *path.radiance += f.carried.weighted(light, world_.estimator) * emitted;
+  const double light = world_.lights.pdf(f.left(), object, point.surface);
+  *path.radiance += f.carried.weighted(Technique::Scattering, light, world_.estimator) * emitted;
 }
 
 }  // namespace mms::renderer

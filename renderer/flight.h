@@ -12,6 +12,9 @@
 
 namespace mms::renderer {
 
+/// What met a light: a direction drawn by what scatters, or one drawn towards the light.
+enum class Technique : std::uint8_t { Scattering, Light };
+
 /// What a path carries: for each wavelength the contribution so far over the density of the
 /// hero's choices, and how likely the same choices were with that wavelength as the hero. All are
 /// kept relative to the most likely wavelength, so that nothing overflows (thesis (4.6), (4.20)).
@@ -25,9 +28,10 @@ struct Carried {
   void happened(const Spectrumf& f, const Spectrumf& p);
   /// Scales by the largest density.
   void rescale();
-  /// Weight of light found with density `light_density` per steradian by the other technique:
-  /// the balance heuristic over both techniques and, if clustered, all wavelengths.
-  Spectrumf weighted(double light_density, Estimator estimator) const;
+  /// Light found by technique `by`, and by light sampling with density `light_density` per
+  /// steradian, over its density and weighed: the balance heuristic over wavelengths if clustered
+  /// (thesis (4.20)), and between the two techniques the power heuristic.
+  Spectrumf weighted(Technique by, double light_density, Estimator estimator) const;
 };
 
 enum class Errand : std::uint8_t { Path, Shadow };
@@ -47,7 +51,9 @@ struct Coefficients {
 
 struct Flight {
   Vec3f origin, direction;
-  int path = 0;  ///< whose it is
+  Vec3f receiver;           ///< normal of the Receiver that it left as a scattered ray
+  bool each_light = false;  ///< likewise
+  int path = 0;             ///< whose it is
   Errand errand = Errand::Path;
   End end = End::Flying;
   bool emission_seen = false;  ///< of the crossing that `hit` is
@@ -67,6 +73,9 @@ struct Flight {
   /// Of the even volumes the one that is to scatter, drawn by the hero's share, and what it does.
   int drawn = -1;
   Spectrumf drawn_scattering;
+
+  /// For the density of light sampling where the flight began.
+  Receiver left() const { return {Vec3d(origin), Vec3d(receiver), each_light}; }
 
   int crossings = -1;  ///< where Flights keeps what lies on its way; -1 before it began
 

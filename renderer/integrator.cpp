@@ -61,6 +61,13 @@ struct Integrator::Scatterer {
     bool specular = false;
   };
 
+  /// Normal of the `Receiver` there. What `consistent` leaves out comes from below the horizon.
+  Vec3f receiver(const ScriptPoint& p) const {
+    if (medium || layout.transmits()) return {};
+    const Vec3d n = p.surface.geometric_normal;
+    return Vec3f(dot(n, p.view) < 0 ? -n : n);
+  }
+
   bool can_connect() const {
     return medium || (layout.has_smooth() && !Bsdf<float>(layout, params).specular_only());
   }
@@ -145,7 +152,8 @@ void Integrator::gather() {
     if (f.errand != Errand::Shadow || f.end == End::Flying) continue;
     Path& p = paths_[f.path];
     p.asks = false;
-    if (f.end == End::Free) p.lit += f.carried.weighted(f.light_density, world_.estimator);
+    if (f.end == End::Free)
+      p.lit += f.carried.weighted(Technique::Light, f.light_density, world_.estimator);
   }
   vertices_.clear();
   arrived_.clear();
@@ -161,8 +169,8 @@ void Integrator::gather() {
       arrived_.push_back({kind, &f});
     } else if (f.end == End::Free && f.errand == Errand::Path) {
       const Vec3d d(f.direction);
-      const Spectrumf weight =
-          f.carried.weighted(world_.lights.pdf_environment(Vec3d(f.origin), d), world_.estimator);
+      const Spectrumf weight = f.carried.weighted(
+          Technique::Scattering, world_.lights.pdf_environment(f.left(), d), world_.estimator);
       p.radiance += weight * world_.lights.environment(d, p.cluster);
     }
   }
@@ -179,9 +187,9 @@ void Integrator::gather() {
 
 void Integrator::add_emission(const Vertex& v, const Spectrumf& emitted) {
   if (emitted.is_black() || v.from->emission_seen) return;
-  const double light =
-      world_.lights.pdf(Vec3d(v.from->origin), v.from->hit.object, v.point.surface);
-  paths_[v.from->path].radiance += v.from->carried.weighted(light, world_.estimator) * emitted;
+  const double light = world_.lights.pdf(v.from->left(), v.from->hit.object, v.point.surface);
+  paths_[v.from->path].radiance +=
+      v.from->carried.weighted(Technique::Scattering, light, world_.estimator) * emitted;
 }
 
 /// One batch: vertices that wear the same surface or lie in volumes of the same descriptor.
@@ -257,7 +265,8 @@ void Integrator::scatter(const Vertex& v, const Scatterer& s) {
   Path& p = paths_[v.from->path];
   const int bounce = p.depth++;
   if (p.depth > world_.max_depth) return;
-  if (world_.lights.any() && s.can_connect()) connect(v, s);
+  const bool each_light = bounce == 0 && world_.each_light;
+  if (world_.lights.any() && s.can_connect()) connect(v, s, each_light);
 
   const auto pair = [&](BouncePair b) { return p.sampler.pair(pair_of_bounce(bounce, b)); };
   const auto [direction_u, direction_v] = pair(kDirection);
@@ -277,6 +286,8 @@ void Integrator::scatter(const Vertex& v, const Scatterer& s) {
     follow(f, v, sampled->wi);
   }
   f.direction = Vec3f(sampled->wi);
+  f.receiver = s.receiver(v.point);
+  f.each_light = each_light;
   f.end = End::Flying;
   f.emission_seen = false;
   f.t = 0;
@@ -286,13 +297,27 @@ void Integrator::scatter(const Vertex& v, const Scatterer& s) {
   next_.push_back(f);
 }
 
-/// Draws a light and a direction to it, and makes the shadow ray; thesis (4.15).
-void Integrator::connect(const Vertex& v, const Scatterer& s) {
+/// Draws light for a vertex: of one of the lights, or of each.
+void Integrator::connect(const Vertex& v, const Scatterer& s, bool each_light) {
   const Path& p = paths_[v.from->path];
-  const auto [light_u, light_v] = p.sampler.pair(pair_of_bounce(p.depth - 1, kLight));
   const Vec3d from = v.point.surface.position;
-  const LightSample light = world_.lights.sample(from, light_u, light_v);
+  const int pair = pair_of_bounce(p.depth - 1, kLight);
+  if (!each_light) {
+    const auto [light_u, light_v] = p.sampler.pair(pair);
+    connect(v, s, world_.lights.sample({from, Vec3d(s.receiver(v.point))}, light_u, light_v));
+    return;
+  }
+  for (int i = 0; i < world_.lights.count(); ++i) {
+    const auto [light_u, light_v] = p.sampler.pair(i == 0 ? pair : pair_of_light(i));
+    connect(v, s, world_.lights.sample_one(i, from, light_u, light_v));
+  }
+}
+
+/// Makes the shadow ray to a point of a light; thesis (4.15).
+void Integrator::connect(const Vertex& v, const Scatterer& s, const LightSample& light) {
   if (!(light.pdf > 0)) return;
+  const Path& p = paths_[v.from->path];
+  const Vec3d from = v.point.surface.position;
   Flight f = *v.from;
   if (!s.medium) follow(f, v, light.direction);
   if (world_.sealed_in(f.media)) return;

@@ -74,7 +74,8 @@ class Integrator {
   void shade(std::span<const Vertex> group);
   void scatter(const Vertex& v, const Scatterer& s);
   void follow(Flight& f, const Vertex& v, Vec3d direction) const;
-  void connect(const Vertex& v, const Scatterer& s);
+  void connect(const Vertex& v, const Scatterer& s, bool each_light);
+  void connect(const Vertex& v, const Scatterer& s, const LightSample& light);
   void ask_emitters();
   void send_shadow_rays();
   static bool survives(Carried& c, int depth, float u);

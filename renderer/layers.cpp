@@ -68,7 +68,7 @@ class Gaze {
   };
 
   /// Weight of what the end of `f` sends back.
-  static Spectrumf arriving(const Flight& f) { return f.carried.weighted(0, Estimator::Clustered); }
+  static Spectrumf arriving(const Flight& f) { return f.carried.weighted(Technique::Scattering, 0, Estimator::Clustered); }
   int surfaces() const { return int(world_.scene.surfaces.size()); }
 
   void start(int y, int x0, int x1) {
@@ -179,7 +179,7 @@ class Gaze {
       if (!s) continue;
       Carried c = v.from->carried;
       c.happened(s->f, s->pdf);
-      l.albedo += c.weighted(0, Estimator::Clustered) * (1.0f / kDirections);
+      l.albedo += c.weighted(Technique::Scattering, 0, Estimator::Clustered) * (1.0f / kDirections);
     }
   }
 

@@ -61,6 +61,30 @@ SurfacePoint sample_sphere(const Sphere& s, Vec3d from, double u, double v) {
   return surface_at(s, from + d * (r.count > 0 ? r.t[0] : dot(s.centre - from, d)));
 }
 
+/// Column and row in [0, 1] of a direction, and back: +y up, the middle looks along -z.
+std::array<double, 2> to_map(Vec3d d, double rotation) {
+  double x = 0.5 + (std::atan2(d.x, -d.z) - rotation) / kTwoPi;
+  x -= std::floor(x);
+  return {x, std::acos(std::clamp(d.y, -1.0, 1.0)) / kPi<double>};
+}
+
+Vec3d from_map(double x, double y, double rotation) {
+  const double phi = (x - 0.5) * kTwoPi + rotation, theta = y * kPi<double>;
+  return {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
+}
+
+/// Mean of the cosine over a light that fills a cone of sine `blur`, `cosine` in its middle, where
+/// what lies below the horizon counts nothing; the cosine as if it were spread evenly.
+double above_horizon(double cosine, double blur) {
+  if (cosine >= blur) return cosine;
+  return cosine > -blur ? (cosine + blur) * (cosine + blur) / (4 * blur) : 0;
+}
+
+/// Of a light of weight `w` among `n` whose weights have the sum `sum`.
+double mixed(double w, double sum, int n) {
+  return kEvenly / n + (1 - kEvenly) * (sum > 0 ? w / sum : 1.0 / n);
+}
+
 }  // namespace
 
 TexelDensity::TexelDensity(std::vector<double> weight, int width, int height)
@@ -94,7 +118,8 @@ Lights::Lights(const SceneData& scene, const std::vector<double>& radiance)
   for (int i = 0; i < int(scene.objects.size()); ++i) {
     if (!(radiance[i] > 0)) continue;
     const Shape& shape = scene.objects[i].shape;
-    Choice c{i, radiance[i], area(shape), bounds(shape).centre(), {}, {}};
+    const Bounds box = bounds(shape);
+    Choice c{i, radiance[i], area(shape), box.radius(), box.centre(), {}, {}};
     if (open(shape)) c.facing = sample_surface(shape, 0.5, 0.5).normal;
     if (const Mesh* m = std::get_if<Mesh>(&shape)) {
       c.triangles.push_back(0);
@@ -142,27 +167,30 @@ void Lights::add_environment() {
   if (!(mean > 0)) return;
   texels_ = TexelDensity(std::move(weight), w, h);
   environment_choice_ = int(choices_.size());
-  choices_.push_back({kEnvironment, mean, 0, {}, {}, {}});
+  choices_.push_back({kEnvironment, mean, 0, 0, {}, {}, {}});
 }
 
 /// Radiance times the solid angle that the light's visible area fills from afar, at most the
-/// hemisphere's; a closed shape shows a quarter of its area, a flat one its front.
-double Lights::irradiance(const Choice& c, Vec3d at) {
+/// hemisphere's, and the receiver's cosine; a closed shape shows a quarter of its area, a flat one
+/// its front.
+double Lights::irradiance(const Choice& c, const Receiver& at) {
   if (c.object == kEnvironment) return c.radiance * kPi<double>;
-  const Vec3d to = c.centre - at;
-  const double d2 = std::max(dot(to, to), 1e-12);
+  const Vec3d to = c.centre - at.position;
+  const double d2 = std::max(dot(to, to), 1e-12), nearness = 1 / std::sqrt(d2);
   const bool flat = dot(c.facing, c.facing) > 0;
-  const double seen = flat ? std::max(0.0, -dot(to, c.facing) / std::sqrt(d2)) : 0.25;
-  return c.radiance * std::min(kTwoPi, c.area * seen / d2);
+  const double seen = flat ? std::max(0.0, -dot(to, c.facing) * nearness) : 0.25;
+  const bool one_side = dot(at.normal, at.normal) > 0;
+  const double cosine =
+      one_side ? above_horizon(dot(to, at.normal) * nearness, std::min(1.0, c.radius * nearness))
+               : 1;
+  return c.radiance * std::min(kTwoPi, c.area * seen / d2) * cosine;
 }
 
-std::array<double, kLightsWeighed> Lights::weigh(Vec3d from) const {
-  const int n = int(choices_.size());
-  std::array<double, kLightsWeighed> p{};
+double Lights::weigh(const Receiver& from, std::array<double, kLightsWeighed>& weights) const {
   double sum = 0;
-  for (int i = 0; i < n; ++i) sum += p[i] = irradiance(choices_[i], from);
-  for (int i = 0; i < n; ++i) p[i] = (1 - kEvenly) * (sum > 0 ? p[i] / sum : 1.0 / n) + kEvenly / n;
-  return p;
+  for (std::size_t i = 0; i < choices_.size(); ++i)
+    sum += weights[i] = irradiance(choices_[i], from);
+  return sum;
 }
 
 /// Probability that the environment is drawn rather than the tree.
@@ -172,43 +200,53 @@ double Lights::environment_share(Vec3d from) const {
   return sky / (sky + tree_.importance(from));
 }
 
-double Lights::probability(int i, Vec3d from) const {
+double Lights::probability(int i, const Receiver& from) const {
   const int n = int(choices_.size());
-  if (n <= kLightsWeighed) return weigh(from)[i];
-  const double sky = environment_share(from);
-  return kEvenly / n +
-         (1 - kEvenly) * (i == environment_choice_ ? sky : (1 - sky) * tree_.probability(i, from));
+  if (n == 1 || from.each_light) return 1;
+  if (n <= kLightsWeighed) {
+    std::array<double, kLightsWeighed> weights;
+    const double sum = weigh(from, weights);
+    return mixed(weights[i], sum, n);
+  }
+  const double sky = environment_share(from.position);
+  return mixed(i == environment_choice_ ? sky : (1 - sky) * tree_.probability(i, from.position), 1,
+               n);
 }
 
 /// Draws a light, and leaves in `u` what is not used up.
-int Lights::choose(Vec3d from, double& u) const {
+Lights::Drawn Lights::choose(const Receiver& from, double& u) const {
   const int n = int(choices_.size());
   const auto spend = [&](double low, double width) {
     u = std::clamp((u - low) / width, 0.0, 1 - 0x1p-53);
   };
+  if (n == 1) return {0, 1};
   if (n <= kLightsWeighed) {
-    const std::array<double, kLightsWeighed> p = weigh(from);
+    std::array<double, kLightsWeighed> weights;
+    const double sum = weigh(from, weights);
     int chosen = 0;
-    double below = 0;
-    while (chosen + 1 < n && u >= below + p[chosen]) below += p[chosen++];
-    spend(below, p[chosen]);
-    return chosen;
+    double below = 0, p = mixed(weights[0], sum, n);
+    while (chosen + 1 < n && u >= below + p) {
+      below += p;
+      p = mixed(weights[++chosen], sum, n);
+    }
+    spend(below, p);
+    return {chosen, p};
   }
   if (u < kEvenly) {
     const int chosen = std::min(int(u / kEvenly * n), n - 1);
     spend(kEvenly * chosen / n, kEvenly / n);
-    return chosen;
+    return {chosen, probability(chosen, from)};
   }
   spend(kEvenly, 1 - kEvenly);
-  const double sky = environment_share(from);
+  const double sky = environment_share(from.position);
   if (u < sky) {
     spend(0, sky);
-    return environment_choice_;
+    return {environment_choice_, mixed(sky, 1, n)};
   }
   spend(sky, 1 - sky);
-  const LightTree::Drawn d = tree_.sample(from, u);
+  const LightTree::Drawn d = tree_.sample(from.position, u);
   u = d.rest;
-  return d.light;
+  return {d.light, mixed((1 - sky) * d.probability, 1, n)};
 }
 
 /// A point of a light's surface, all of its area alike.
@@ -234,65 +272,58 @@ double Lights::pdf_point(int object) const {
   return choice_of_[object] < 0 ? 0 : choices_[choice_of_[object]].radiance / powers_.back();
 }
 
-LightSample Lights::sample(Vec3d from, double u, double v) const {
-  const Choice* c = &choices_[choose(from, u)];
-  if (c->object == kEnvironment) return sample_environment(from, u, v);
+LightSample Lights::sample(const Receiver& from, double u, double v) const {
+  const Drawn drawn = choose(from, u);
+  LightSample s = sample_one(drawn.choice, from.position, u, v);
+  s.pdf *= drawn.probability;
+  return s;
+}
+
+LightSample Lights::sample_one(int choice, Vec3d from, double u, double v) const {
+  const Choice& c = choices_[choice];
   LightSample s;
-  s.object = c->object;
-  const Shape& shape = scene_->objects[c->object].shape;
+  s.object = c.object;
+  if (c.object == kEnvironment) {
+    const TexelDensity::Drawn d = texels_.sample(u, v);
+    s.direction = from_map(d.x, d.y, scene_->environment.rotation);
+    s.pdf = density_environment(s.direction);
+    return s;
+  }
+  const Shape& shape = scene_->objects[c.object].shape;
   if (const Sphere* sphere = std::get_if<Sphere>(&shape)) {
     s.surface = sample_sphere(*sphere, from, u, v);
   } else {
-    s.surface = place(*c, u, v);
+    s.surface = place(c, u, v);
   }
   const Vec3d to = s.surface.position - from;
   if (!(dot(to, to) > 0)) return s;
   s.direction = normalize(to);
-  s.pdf = pdf(from, s.object, s.surface);
+  s.pdf = density(c, from, s.surface);
   return s;
 }
 
-double Lights::pdf(Vec3d from, int object, const SurfacePoint& at) const {
-  if (choice_of_[object] < 0) return 0;
-  const Choice& c = choices_[choice_of_[object]];
-  const double chosen = probability(choice_of_[object], from);
-  if (const Sphere* s = std::get_if<Sphere>(&scene_->objects[object].shape))
-    if (outside(*s, from)) return chosen / (kTwoPi * one_minus_cos_cone(*s, from));
-  return to_solid_angle(chosen / c.area, from, at);
+/// Per steradian, the light being chosen.
+double Lights::density(const Choice& c, Vec3d from, const SurfacePoint& at) const {
+  if (const Sphere* s = std::get_if<Sphere>(&scene_->objects[c.object].shape))
+    if (outside(*s, from)) return 1 / (kTwoPi * one_minus_cos_cone(*s, from));
+  return to_solid_angle(1 / c.area, from, at);
 }
 
-namespace {
-
-/// Column and row in [0, 1] of a direction, and back: +y up, the middle looks along -z.
-std::array<double, 2> to_map(Vec3d d, double rotation) {
-  double x = 0.5 + (std::atan2(d.x, -d.z) - rotation) / kTwoPi;
-  x -= std::floor(x);
-  return {x, std::acos(std::clamp(d.y, -1.0, 1.0)) / kPi<double>};
+double Lights::pdf(const Receiver& from, int object, const SurfacePoint& at) const {
+  const int i = choice_of_[object];
+  return i < 0 ? 0 : probability(i, from) * density(choices_[i], from.position, at);
 }
 
-Vec3d from_map(double x, double y, double rotation) {
-  const double phi = (x - 0.5) * kTwoPi + rotation, theta = y * kPi<double>;
-  return {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
-}
-
-}  // namespace
-
-LightSample Lights::sample_environment(Vec3d from, double u, double v) const {
-  LightSample s;
-  const Environment& e = scene_->environment;
-  const TexelDensity::Drawn d = texels_.sample(u, v);
-  s.direction = from_map(d.x, d.y, e.rotation);
-  s.pdf = pdf_environment(from, s.direction);
-  return s;
-}
-
-double Lights::pdf_environment(Vec3d from, Vec3d direction) const {
-  const Environment& e = scene_->environment;
-  if (environment_choice_ < 0) return 0;
-  const double chosen = probability(environment_choice_, from);
-  const auto [x, y] = to_map(direction, e.rotation);
+/// Per steradian, the environment being chosen.
+double Lights::density_environment(Vec3d direction) const {
+  const auto [x, y] = to_map(direction, scene_->environment.rotation);
   const double sine = std::sqrt(std::max(0.0, 1 - direction.y * direction.y));
-  return sine > 0 ? chosen * texels_.pdf(x, y) / (kTwoPi * kPi<double> * sine) : 0;
+  return sine > 0 ? texels_.pdf(x, y) / (kTwoPi * kPi<double> * sine) : 0;
+}
+
+double Lights::pdf_environment(const Receiver& from, Vec3d direction) const {
+  if (environment_choice_ < 0) return 0;
+  return probability(environment_choice_, from) * density_environment(direction);
 }
 
 Rgb Lights::texel(double x, double y) const {

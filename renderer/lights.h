@@ -20,6 +20,15 @@ inline constexpr int kEnvironment = -1;
 /// Up to so many lights are weighed one by one for each point; more are kept in a tree.
 inline constexpr int kLightsWeighed = 32;
 
+/// Where light is to be scattered.
+struct Receiver {
+  Vec3d position;
+  Vec3d normal;             ///< unit, towards the only side that light matters from; zero if all do
+  bool each_light = false;  ///< light is drawn from each of them rather than from one
+
+  Receiver(Vec3d p, Vec3d n = {}, bool each = false) : position(p), normal(n), each_light(each) {}
+};
+
 /// A direction towards a light, as seen from some point.
 struct LightSample {
   int object = kEnvironment;  ///< index into SceneData::objects
@@ -62,12 +71,16 @@ class Lights {
 
   /// Draws a light by its estimated irradiance at `from`, then a direction. `u` chooses the light,
   /// and what is left of it the place on the light.
-  LightSample sample(Vec3d from, double u, double v) const;
+  LightSample sample(const Receiver& from, double u, double v) const;
+  /// Draws a direction towards the light of number `choice` in [0, count()): what `sample` does
+  /// once it has chosen.
+  LightSample sample_one(int choice, Vec3d from, double u, double v) const;
+  int count() const { return int(choices_.size()); }
 
   /// Density, per steradian and choice included, of drawing the direction from `from` that meets
   /// `object` at `at`. 0 for what is not an emitter.
-  double pdf(Vec3d from, int object, const SurfacePoint& at) const;
-  double pdf_environment(Vec3d from, Vec3d direction) const;
+  double pdf(const Receiver& from, int object, const SurfacePoint& at) const;
+  double pdf_environment(const Receiver& from, Vec3d direction) const;
 
   /// Draws a point of an emitting object, by its estimated power: where a path from the light
   /// begins. \pre some object emits (`any_object`).
@@ -82,20 +95,25 @@ class Lights {
  private:
   struct Choice {
     int object;
-    double radiance, area;
+    double radiance, area, radius;  ///< `radius` of a ball around `centre` that holds the light
     Vec3d centre, facing;           ///< `facing` is zero where light leaves to all sides
     std::vector<double> triangles;  ///< cumulative area of a mesh's triangles
   };
   void add_environment();
   SurfacePoint place(const Choice& c, double u, double v) const;
-  static double irradiance(const Choice& c, Vec3d at);
-  /// Probability of drawing light `i` at `from`, for each light.
-  std::array<double, kLightsWeighed> weigh(Vec3d from) const;
+  static double irradiance(const Choice& c, const Receiver& at);
+  /// Estimates for each light, and their sum.
+  double weigh(const Receiver& from, std::array<double, kLightsWeighed>& weights) const;
   double environment_share(Vec3d from) const;
-  double probability(int i, Vec3d from) const;
-  int choose(Vec3d from, double& u) const;
+  double probability(int i, const Receiver& from) const;
+  struct Drawn {
+    int choice;
+    double probability;
+  };
+  Drawn choose(const Receiver& from, double& u) const;
+  double density(const Choice& c, Vec3d from, const SurfacePoint& at) const;
+  double density_environment(Vec3d direction) const;
   Rgb texel(double x, double y) const;
-  LightSample sample_environment(Vec3d from, double u, double v) const;
 
   const SceneData* scene_;
   std::vector<Choice> choices_;

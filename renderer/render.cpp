@@ -17,6 +17,10 @@ namespace {
 
 constexpr int kLargestSide = 32768;
 
+/// Up to so many lights each of them lights the first vertex of a path, where no shadow ray waits
+/// for a script: they come back together, and sums are made in one order.
+constexpr int kLightsOfFirst = 4;
+
 std::optional<Error> check(const RenderOptions& o) {
   if (o.width < 1 || o.width > kLargestSide || o.height < 1 || o.height > kLargestSide)
     return Error{"size", fmt::format("a picture of {} x {} pixels", o.width, o.height),
@@ -75,6 +79,7 @@ Result<Rendered> render(const vm::Program& program, const Scene& scene,
               std::move(passes),
               plain,
               nested,
+              plain && lights.count() <= kLightsOfFirst,
               options.seed,
               options.max_depth,
               std::move(findings->majorants),

@@ -47,7 +47,7 @@ class Sampler {
 
   /// Coordinates 0 to 3. All numbers are in [0, 1): never 1, also after rounding to float.
   std::array<float, 4> first() const;
-  /// Coordinates 2 `number` and the next. \pre number >= 2
+  /// Coordinates 2 `number` and the next. \pre number >= 2, or a `pair_of_light`
   std::array<float, 2> pair(int number) const;
   float operator()(int coordinate) const;
 
@@ -73,5 +73,8 @@ enum BouncePair : int { kLight, kDirection, kChoices, kPairsOfBounce };
 constexpr int pair_of_bounce(int bounce, BouncePair p) {
   return kFirstBounce + bounce * kPairsOfBounce + p;
 }
+
+/// Places on light `i` (from 1 on) where one vertex is lit by each; `kLight` has those on light 0.
+constexpr int pair_of_light(int i) { return -i; }
 
 }  // namespace mms::renderer

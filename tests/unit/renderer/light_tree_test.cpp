@@ -122,9 +122,9 @@ TEST_CASE("a picture of the sky: directions follow their density, whatever it is
     stats::ChiSquareTest test;
     test.sample = [&](stats::Random& random) -> std::optional<Vec3d> {
       const double u = random.next(), v = random.next();
-      return lights.sample({0, 0, 0}, u, v).direction;
+      return lights.sample(Vec3d{0, 0, 0}, u, v).direction;
     };
-    test.pdf = [&](Vec3d d) { return lights.pdf_environment({0, 0, 0}, d); };
+    test.pdf = [&](Vec3d d) { return lights.pdf_environment(Vec3d{0, 0, 0}, d); };
     test.axis = {0, 1, 0};
     const stats::ChiSquareResult r = stats::chi_square(test);
     INFO(r.report());

@@ -7,6 +7,7 @@
 
 #include "base/hash.h"
 #include "base/warp.h"
+#include "renderer/flight.h"
 
 using namespace mms;
 using namespace mms::renderer;
@@ -96,10 +97,10 @@ TEST_CASE("a picture's density integrates to one, and sampling follows it") {
   for (int i = 0; i < n; ++i) {
     const double u = u01(2 * std::uint64_t(i)), v = u01(2 * std::uint64_t(i) + 1);
     const Vec3d d = square_to_sphere(u, v);
-    const double pdf = lights.pdf_environment({0, 0, 0}, d) * 4 * kPi<double>;
+    const double pdf = lights.pdf_environment(Vec3d{0, 0, 0}, d) * 4 * kPi<double>;
     integral += pdf / n;
     expected += in_cap(d) ? pdf / n : 0;
-    const LightSample drawn = lights.sample({0, 0, 0}, u, v);
+    const LightSample drawn = lights.sample(Vec3d{0, 0, 0}, u, v);
     REQUIRE(drawn.object == kEnvironment);
     CHECK(drawn.pdf > 0);
     found += in_cap(drawn.direction) ? 1.0 / n : 0;
@@ -149,6 +150,52 @@ TEST_CASE("only what emits is a light, and an even environment is left to scatte
   s.environment.radiance = {1, 1, 1};
   const Lights lights(s, {0.0});
   CHECK_FALSE(lights.any());
-  CHECK(lights.pdf_environment({0, 0, 0}, {0, 1, 0}) == 0);
-  CHECK(lights.pdf({0, 0, 3}, 0, surface_at(Sphere{}, {0, 0, 1})) == 0);
+  CHECK(lights.pdf_environment(Vec3d{0, 0, 0}, {0, 1, 0}) == 0);
+  CHECK(lights.pdf(Vec3d{0, 0, 3}, 0, surface_at(Sphere{}, {0, 0, 1})) == 0);
+}
+
+TEST_CASE("light is drawn by where a surface faces, and by each light alone where each is drawn") {
+  // Two squares of 2 m, 2 m above and below: what faces up sees the upper one.
+  SceneData s = scene_with(Quad{{-1, 2, -1}, {2, 0, 0}, {0, 0, 2}});
+  Object below;
+  below.shape = Quad{{-1, -2, -1}, {0, 0, 2}, {2, 0, 0}};
+  s.objects.push_back(std::move(below));
+  const Lights lights(s, {1.0, 1.0});
+  const Receiver up{{0.1, 0, 0.2}, {0, 1, 0}};
+  const int n = 20000;
+  int upper = 0;
+  for (int i = 0; i < n; ++i) {
+    const double u = u01(2 * std::uint64_t(i)), v = u01(2 * std::uint64_t(i) + 1);
+    const LightSample d = lights.sample(up, u, v);
+    CHECK(d.pdf == doctest::Approx(lights.pdf(up, d.object, d.surface)));
+    upper += d.object == 0;
+    const Receiver each{up.position, up.normal, true};
+    const LightSample one = lights.sample_one(0, each.position, u, v);
+    CHECK(one.object == 0);
+    CHECK(one.pdf == doctest::Approx(lights.pdf(each, 0, one.surface)));
+  }
+  // A tenth of the choices is even: one in twenty goes down, give or take 5 standard deviations.
+  CHECK(std::abs(upper - 0.95 * n) < 5 * std::sqrt(0.95 * 0.05 * n));
+}
+
+TEST_CASE("weights of the two ways to find a light add up to one, for any densities") {
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    Carried c;
+    double scattering = 0, light = 0;
+    const double density = std::exp2(40 * u01(3 * i) - 20);
+    for (int k = 0; k < kWavelengths; ++k) {
+      c.pdf[k] = float(u01(1000 + 8 * i + k));
+      c.light_pdf[k] = float(u01(9000 + 8 * i + k));
+      scattering += c.pdf[k];
+      light += density * c.light_pdf[k];
+    }
+    // What each contributes is 1 over its density, weighed: its density takes that out again.
+    const Estimator e = Estimator::Clustered;
+    const double sum = c.weighted(Technique::Scattering, density, e)[0] * scattering +
+                       c.weighted(Technique::Light, density, e)[0] * light;
+    CHECK(sum == doctest::Approx(1).epsilon(1e-6));
+  }
+  Carried alone;
+  CHECK(alone.weighted(Technique::Scattering, 0, Estimator::Clustered)[0] ==
+        doctest::Approx(1.0 / kWavelengths));
 }
