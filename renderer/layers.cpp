@@ -68,7 +68,9 @@ class Gaze {
   };
 
   /// Weight of what the end of `f` sends back.
-  static Spectrumf arriving(const Flight& f) { return f.carried.weighted(Technique::Scattering, 0, Estimator::Clustered); }
+  static Spectrumf arriving(const Flight& f) {
+    return f.carried.weighted(Technique::Scattering, 0, Estimator::Clustered);
+  }
   int surfaces() const { return int(world_.scene.surfaces.size()); }
 
   void start(int y, int x0, int x1) {
