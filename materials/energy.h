@@ -232,13 +232,15 @@ struct InterfaceLoss {
     return l > 0 ? std::min(l, R(1)) : R(0);
   }
 
-  /// m in (0, 1).
+  /// m in (0, 1). Its table rings next to alpha = 0 for indices below 1/4; in truth no mean is less
+  /// than 0.15 of the unit.
   R mean() const {
     using namespace axes;
     const auto a = Stencil<R>::at(log_alpha(alpha, R(1)), kInterfaceMean);
     const auto n = Stencil<R>::at(index(eta), kIndex[eta < 1]);
     return mean_unit(alpha * alpha) *
-           interpolate(tables->mean[eta < 1], a, coefficients(kIndex[eta < 1]), n);
+           std::max(R(0.1),
+                    interpolate(tables->mean[eta < 1], a, coefficients(kIndex[eta < 1]), n));
   }
 };
 
