@@ -23,7 +23,10 @@ TEST_CASE("samples follow the density") {
   double worst = 1;
   std::uint64_t seed = 0;
   for (const Case& c : cases) {
-    if (only && !c.name.starts_with(only)) continue;
+    if (only && !c.name.starts_with(only)) {
+      seed += std::size(kDegrees);  // the others keep theirs
+      continue;
+    }
     const materials::Layout layout = c.material.layout();
     const auto p32 = c.material.params<float>();
     const auto p64 = c.material.params<double>();
