@@ -22,7 +22,7 @@ namespace mms::materials {
 struct FacetTables {
   const float* loss;            ///< [alpha][direction], isotropic
   const float* mean;            ///< [alpha], isotropic, over `mean_unit`
-  const float* stretched;       ///< [alpha][aspect][azimuth][direction]
+  const float* stretched;       ///< [alpha][aspect][azimuth][direction]; alpha: the geometric mean
   const float* stretched_mean;  ///< [alpha][aspect]
 };
 extern const FacetTables kGgxTables, kBeckmannTables;
@@ -44,11 +44,10 @@ extern const float* const kGgxCoat;
 /// How directions and widths are laid out over [0, 1] along the axes of the tables.
 namespace axes {
 
-inline constexpr double kMaxStretched = 3.2;  ///< the widest alpha, at full anisotropy
 inline constexpr double kMinMeanAlpha = 1e-5;
 
 inline constexpr int kAlpha = 65, kDirection = 65, kMean = 193;
-inline constexpr int kStretchedAlpha = 14, kAspect = 9, kAzimuth = 9, kStretchedDirection = 33;
+inline constexpr int kStretchedAlpha = 23, kAspect = 10, kAzimuth = 13, kStretchedDirection = 41;
 inline constexpr int kStretchedMean = 65, kMeanAspect = 12;
 /// [1] where the index falls on the far side: the loss has a ridge along the critical angle there.
 inline constexpr int kInterfaceAlpha = 19, kIndex[] = {29, 37}, kInterfaceDirection[] = {61, 75};
@@ -72,8 +71,8 @@ inline R width(R alpha) {
 }
 
 template <class R>
-inline R alpha(R a, R largest) {
-  return std::sqrt(a / largest);
+inline R alpha(R a) {
+  return std::sqrt(a);
 }
 
 template <class R>
@@ -89,8 +88,8 @@ inline R coat_alpha(R a) {
 
 /// For means, which fall as alpha^2 ln(1 / alpha).
 template <class R>
-inline R log_alpha(R a, R largest) {
-  return std::log(a / R(kMinMeanAlpha)) / std::log(largest / R(kMinMeanAlpha));
+inline R log_alpha(R a) {
+  return 1 - std::log(a) / R(std::log(kMinMeanAlpha));
 }
 
 /// Of the quotient of the wider and the narrower alpha, from 1 to 10.
@@ -99,10 +98,25 @@ inline R aspect(R quotient) {
   return std::log(quotient) / std::numbers::ln10_v<R>;
 }
 
+/// Of a tangent (x, y) that is stretched by the roots of both alphas, half way between the surface,
+/// where directions are, and facets that look round.
+template <class R>
+inline R azimuth(R x, R y) {
+  return std::atan2(std::abs(x), std::abs(y)) * (2 / std::numbers::pi_v<R>);
+}
+
 /// Finer towards 0, where it is grazing: losses grow as z^0.8 there for indices near 1.
 template <class R>
 inline R towards_grazing(R x) {
   return (x + std::sqrt(x)) / 2;
+}
+
+/// The same for stretched facets, of the tangent that both alphas stretch: one part in four the
+/// angle.
+template <class R>
+inline R stretched_direction(R z, R s, R tangent, R area) {
+  const R angle = std::atan2(z, s) * (2 / std::numbers::pi_v<R>);
+  return towards_grazing((3 * direction(z, tangent, 1 / (1 + area)) + angle) / 4);
 }
 
 /// The same for an interface: two parts `direction`, one angle.
@@ -179,19 +193,19 @@ struct FacetLoss {
     if (isotropic()) {
       const R s = std::sqrt(w.x * w.x + w.y * w.y);
       const auto d = Stencil<R>::at(axes::direction(z, s, axes::width(ax)), axes::kDirection);
-      const auto a = Stencil<R>::at(axes::alpha(ax, R(1)), axes::kAlpha);
+      const auto a = Stencil<R>::at(axes::alpha(ax), axes::kAlpha);
       return clamp01(interpolate(tables->loss, a, coefficients(axes::kDirection), d));
     }
     // Along the wider axis.
-    const R wide = std::max(ax, ay), narrow = std::min(ax, ay);
-    const R x = wide * (ax < ay ? w.y : w.x), y = narrow * (ax < ay ? w.x : w.y);
-    const R t2 = x * x + y * y;
+    const R wide = std::max(ax, ay), narrow = std::min(ax, ay), area = wide * narrow;
+    const R x = ax < ay ? w.y : w.x, y = ax < ay ? w.x : w.y;
+    const R s = std::sqrt(x * x + y * y);
+    const R tangent = std::sqrt(wide * wide * x * x + narrow * narrow * y * y);
     using namespace axes;
-    const auto d =
-        Stencil<R>::at(direction(z, std::sqrt(t2), 1 / (1 + wide * wide)), kStretchedDirection);
-    const auto c = Stencil<R>::at(t2 > 0 ? x * x / t2 : R(1), kAzimuth);
+    const auto d = Stencil<R>::at(stretched_direction(z, s, tangent, area), kStretchedDirection);
+    const auto c = Stencil<R>::at(azimuth(std::sqrt(wide) * x, std::sqrt(narrow) * y), kAzimuth);
     const auto q = Stencil<R>::at(aspect(wide / narrow), kAspect);
-    const auto a = Stencil<R>::at(alpha(wide, R(kMaxStretched)), kStretchedAlpha);
+    const auto a = Stencil<R>::at(alpha(std::sqrt(area)), kStretchedAlpha);
     constexpr int n2 = coefficients(kStretchedDirection), n1 = n2 * coefficients(kAzimuth),
                   n0 = n1 * coefficients(kAspect);
     return clamp01(interpolate(tables->stretched, a, n0, q, n1, c, n2, d));
@@ -201,11 +215,9 @@ struct FacetLoss {
   R mean() const {
     using namespace axes;
     const R unit = mean_unit(ax * ay);
-    if (isotropic())
-      return unit * interpolate(tables->mean, Stencil<R>::at(log_alpha(ax, R(1)), kMean));
-    const R wide = std::max(ax, ay), narrow = std::min(ax, ay);
-    const auto a = Stencil<R>::at(log_alpha(wide, R(kMaxStretched)), kStretchedMean);
-    const auto q = Stencil<R>::at(aspect(wide / narrow), kMeanAspect);
+    if (isotropic()) return unit * interpolate(tables->mean, Stencil<R>::at(log_alpha(ax), kMean));
+    const auto a = Stencil<R>::at(log_alpha(std::sqrt(ax * ay)), kStretchedMean);
+    const auto q = Stencil<R>::at(aspect(std::max(ax, ay) / std::min(ax, ay)), kMeanAspect);
     return unit * interpolate(tables->stretched_mean, a, coefficients(kMeanAspect), q);
   }
 
@@ -236,7 +248,7 @@ struct InterfaceLoss {
   /// than 0.15 of the unit.
   R mean() const {
     using namespace axes;
-    const auto a = Stencil<R>::at(log_alpha(alpha, R(1)), kInterfaceMean);
+    const auto a = Stencil<R>::at(log_alpha(alpha), kInterfaceMean);
     const auto n = Stencil<R>::at(index(eta), kIndex[eta < 1]);
     return mean_unit(alpha * alpha) *
            std::max(R(0.1),

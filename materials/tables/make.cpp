@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/energy.h and writes them as C++ to the named file: run by the
-// build, on two threads or more, for about two minutes of one core.
+// build, on two threads or more, for about one minute of one core.
 #include <cstdio>
 #include <string>
 
@@ -20,11 +20,11 @@ std::vector<float> write(std::FILE* to, const std::string& name, const Grid& gri
   return table;
 }
 
-constexpr double kTolerance = 4e-6;
+constexpr int kAngles = 192;
 
 /// The loss of one bounce off lossless facets.
 template <class Facets>
-double loss(const Facets& facets, Vec3d wo, double tolerance = kTolerance) {
+double loss(const Facets& facets, Vec3d wo, int angles = kAngles) {
   const auto mirrored = [&](Vec3d h) { return h * (2 * dot(wo, h)) - wo; };
   const double so = facets.shadow(wo);
   return visible_mean(
@@ -35,14 +35,18 @@ double loss(const Facets& facets, Vec3d wo, double tolerance = kTolerance) {
         const double s = wo.z * facets.shadow(wi);
         return s / (wo.z * wi.z + so * wi.z + s);
       },
-      [&](Vec3d h) { return std::array{mirrored(h).z}; }, tolerance);
+      [&](Vec3d h) { return std::array{mirrored(h).z}; }, angles);
 }
 
-/// cos theta from its place on the axis axes::direction of a surface of that width.
-double cosine(double place, double width) {
-  const double half = place * kPi<double> / 2, s = std::sin(half), c = std::cos(half);
-  const double z = s * s, t = c * std::sqrt(1 + s * s);  // of the stretched direction
-  return width * z / std::hypot(width * z, t);
+/// cos theta from its place along an axis that maps a cosine and a sine, by halving.
+template <class Axis>
+double cosine(double place, const Axis& axis) {
+  double lo = 0, hi = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double angle = (lo + hi) * kPi<double> / 4;
+    (axis(std::sin(angle), std::cos(angle)) < place ? lo : hi) = (lo + hi) / 2;
+  }
+  return std::sin(lo * kPi<double> / 2);
 }
 
 constexpr double kLeast = 1e-7;  // an axis' first direction and width, instead of 0
@@ -50,8 +54,8 @@ constexpr double kLeast = 1e-7;  // an axis' first direction and width, instead 
 template <template <class> class Distribution>
 double isotropic_loss(double alpha, double place) {
   alpha = std::max(alpha, 1e-5);
-  const double z =
-      std::max(cosine(std::min(place, 1 - kLeast), axes::width(alpha)), kLeast * alpha);
+  const auto axis = [&](double z, double s) { return axes::direction(z, s, axes::width(alpha)); };
+  const double z = std::max(cosine(std::min(place, 1 - kLeast), axis), kLeast * alpha);
   return loss(Distribution<double>{{alpha, alpha}}, {std::sqrt(1 - z * z), 0, z});
 }
 
@@ -76,7 +80,7 @@ double mean_loss(const Loss& loss, double alpha2, int azimuths) {
 
 /// The loss at one facet's interface of relative index `eta`: what it reflects or refracts and
 /// other facets then take, or what leaves to the wrong side.
-double interface_loss(double alpha, double eta, double z) {
+double interface_loss(double alpha, double eta, double z, int angles = kAngles) {
   const Ggx<double> facets{{alpha, alpha}};
   const Vec3d wo{std::sqrt(1 - z * z), 0, z};
   const double so = facets.shadow(wo);
@@ -100,7 +104,7 @@ double interface_loss(double alpha, double eta, double z) {
         const double c = std::clamp(dot(wo, h), 0.0, 1.0);
         return std::array{2 * c * h.z - z, refraction(h, c).z, refraction_g2(c, eta)};
       },
-      1e-5);
+      angles);
 }
 
 /// The relative index of a place on its axis; `rising`: above 1.
@@ -110,20 +114,7 @@ double index_at(double place, bool rising) {
 }
 
 /// How a mean's width is laid out: the inverse of axes::log_alpha.
-double from_log(double x, double largest) {
-  return axes::kMinMeanAlpha * std::pow(largest / axes::kMinMeanAlpha, x);
-}
-
-/// cos theta from its place on axes::interface_direction, by halving.
-double interface_cosine(double place, double alpha, double eta) {
-  double lo = 0, hi = 1;
-  for (int i = 0; i < 60; ++i) {
-    const double angle = (lo + hi) * kPi<double> / 4;
-    const double at = axes::interface_direction(std::sin(angle), std::cos(angle), alpha, eta);
-    (at < place ? lo : hi) = (lo + hi) / 2;
-  }
-  return std::sin(lo * kPi<double> / 2);
-}
+double from_log(double x) { return std::pow(axes::kMinMeanAlpha, 1 - x); }
 
 void write_interface(std::FILE* to, const std::string& name, bool rising) {
   using namespace axes;
@@ -131,12 +122,14 @@ void write_interface(std::FILE* to, const std::string& name, bool rising) {
       to, name,
       Grid({kInterfaceAlpha, kIndex[!rising], kInterfaceDirection[!rising]}, [&](const double* x) {
         const double a = std::max(x[0] * x[0] * x[0], 1e-5), eta = index_at(x[1], rising);
-        const double z = interface_cosine(std::min(x[2], 1 - kLeast), a, eta);
+        const double z = cosine(std::min(x[2], 1 - kLeast), [&](double c, double s) {
+          return interface_direction(c, s, a, eta);
+        });
         return interface_loss(a, eta, std::max(z, kLeast * a));
       }));
   const InterfaceTables tables{{table.data(), table.data()}, {}};
   write(to, name + "Mean", Grid({kInterfaceMean, kIndex[!rising]}, [&](const double* x) {
-          const double a = from_log(x[0], 1);
+          const double a = from_log(x[0]);
           return mean_loss(InterfaceLoss<double>{a, index_at(x[1], rising), &tables}, a * a, 1);
         }));
 }
@@ -179,7 +172,7 @@ double facet_coat_mean(const FacetLoss<double>& lost, double eta, double z) {
         const double s = z * facets.shadow(wi), c = std::min(wi.z, 1.0);
         return (z + so) * c / (z * c + so * c + s) * fresnel_dielectric(c, eta);
       },
-      [&](Vec3d h) { return std::array{mirrored(h).z}; }, 1e-5);
+      [&](Vec3d h) { return std::array{mirrored(h).z}; }, kAngles);
   struct Reflected {
     const FacetLoss<double>& lost;
     double eta;
@@ -208,28 +201,30 @@ std::vector<float> write_facets(std::FILE* to, const std::string& name) {
   const auto round = write(to, name + "Loss", Grid({kAlpha, kDirection}, [](const double* x) {
                              return isotropic_loss<Distribution>(x[0] * x[0], x[1]);
                            }));
-  const auto stretched =
-      write(to, name + "Stretched",
-            Grid({kStretchedAlpha, kAspect, kAzimuth, kStretchedDirection}, [](const double* x) {
-              const double wide = std::max(x[0] * x[0] * kMaxStretched, 1e-5);
-              const double narrow = wide * std::pow(10, -x[1]);
-              // The stretched direction: x[2] is the share of its tangent's square along x.
-              const double c = std::sqrt(x[2]) / wide, s = std::sqrt(1 - x[2]) / narrow;
-              const double stretch = 1 / std::hypot(c, s);
-              const double z = std::max(
-                  cosine(std::min(x[3], 1 - kLeast), stretch / (1 + wide * wide)), kLeast * wide);
-              const double r = std::sqrt(1 - z * z) * stretch;
-              return loss(Distribution<double>{{wide, narrow}}, {r * c, r * s, z}, 4e-5);
-            }));
+  const auto stretched = write(
+      to, name + "Stretched",
+      Grid({kStretchedAlpha, kAspect, kAzimuth, kStretchedDirection}, [](const double* x) {
+        const double alpha = std::max(x[0] * x[0], 1e-5);
+        const double wide = alpha * std::pow(10, x[1] / 2), narrow = alpha * alpha / wide;
+        const Vec3d w = normalize(Vec3d{std::sin(x[2] * kPi<double> / 2) / std::sqrt(wide),
+                                        std::cos(x[2] * kPi<double> / 2) / std::sqrt(narrow), 0});
+        const double stretch = std::hypot(wide * w.x, narrow * w.y);
+        const auto axis = [&](double c, double s) {
+          return stretched_direction(c, s, s * stretch, alpha * alpha);
+        };
+        const double z = std::max(cosine(std::min(x[3], 1 - kLeast), axis), kLeast * alpha);
+        return loss(Distribution<double>{{wide, narrow}},
+                    w * std::sqrt(1 - z * z) + Vec3d{0, 0, z});
+      }));
   const FacetTables tables{round.data(), nullptr, stretched.data(), nullptr};
   write(to, name + "Mean", Grid({kMean}, [&](const double* x) {
-          const double a = from_log(x[0], 1);
+          const double a = from_log(x[0]);
           return mean_loss(FacetLoss<double>{&tables, a, a}, a * a, 1);
         }));
   write(to, name + "StretchedMean", Grid({kStretchedMean, kMeanAspect}, [&](const double* x) {
-          const double wide = from_log(x[0], kMaxStretched);
-          const double narrow = wide * std::pow(10, -x[1] - 1e-9);
-          return mean_loss(FacetLoss<double>{&tables, wide, narrow}, wide * narrow, 12);
+          const double alpha = from_log(x[0]), wide = alpha * std::pow(10, x[1] / 2 + 1e-9);
+          const double narrow = alpha * alpha / wide;
+          return mean_loss(FacetLoss<double>{&tables, wide, narrow}, alpha * alpha, 24);
         }));
   return round;
 }

@@ -14,18 +14,12 @@
 
 namespace mms::materials::tables {
 
-/// s^4 (35 - 84 s + 70 s^2 - 20 s^3) maps [0, 1] to itself and crowds points at both ends.
-inline double crowd(double s) { return s * s * s * s * (35 + s * (-84 + s * (70 - s * 20))); }
-inline double crowd_slope(double s) {
-  const double t = s * (1 - s);
-  return 140 * t * t * t;
-}
-
-/// Integral of f over [a, b], crowding points at both ends.
+/// Integral of f over [a, b], crowding points at both ends, where f may be as a square root.
 template <int N, class F>
 double integrate_crowded(const F& f, double a, double b) {
   return integrate<N>(
-      [&](double s) { return (b - a) * crowd_slope(s) * f(a + (b - a) * crowd(s)); }, 0, 1);
+      [&](double s) { return (b - a) * 6 * s * (1 - s) * f(a + (b - a) * s * s * (3 - 2 * s)); }, 0,
+      1);
 }
 
 /// Integral of f over [a, b], cut where one of `edges(x)` changes its sign.
@@ -64,66 +58,55 @@ double integrate_between_edges(const F& f, const Edges& edges, double a, double 
   return sum;
 }
 
-/// Mean of f(h) over the normals of `ggx` that `wo` sees; `edges(h)` change sign where f is not
-/// smooth. As Ggx::sample_visible, u2 outside and u1 inside; each panel outside to within
-/// `tolerance`.
-template <class F, class Edges>
-double visible_mean(const Ggx<double>& ggx, Vec3d wo, const F& f, const Edges& edges,
-                    double tolerance) {
-  const Vec3d w = normalize(Vec3d{ggx.ax * wo.x, ggx.ay * wo.y, wo.z});
-  const double start = std::atan2(w.y, w.x);
-  // Where all is alike around a direction in the x z plane, half the ring is enough.
-  const bool half = ggx.ax == ggx.ay;
-  const auto ring = [&](double up) {  // 1 - u2, small towards grazing normals
-    const double rise = up * (1 + w.z), low = (1 + w.z) - rise;
-    const double r = std::sqrt(std::max(0.0, low * (1 - w.z + rise)));
-    const auto normal = [&](double phi) {
-      return normalize(
-          Vec3d{ggx.ax * (r * std::cos(phi) + w.x), ggx.ay * (r * std::sin(phi) + w.y), rise});
-    };
-    double sum = 0;  // in halves, so that a pair of close edges is seen apart
-    for (int k = 0; k < (half ? 1 : 2); ++k)
-      sum += integrate_between_edges([&](double phi) { return f(normal(phi)); },
-                                     [&](double phi) { return edges(normal(phi)); },
-                                     start + k * kPi<double>, start + (k + 1) * kPi<double>);
-    return sum / ((half ? 1 : 2) * kPi<double>);
-  };
-  // The tail of steep facets is as long as 1 / alpha^2: up = e^-t.
-  constexpr double cuts[] = {0, 0.5, 1.7, 3.5, 7, 12, 20};
+/// Mean over a turn of ray(cos, sin), by the middle of as many angles: of a smooth one, all but
+/// exact. `half`: where the other half of the turn is alike.
+template <class Ray>
+double turn_mean(const Ray& ray, double start, int angles, bool half) {
+  const int n = half ? angles / 2 : angles;
   double sum = 0;
-  for (std::size_t i = 1; i < std::size(cuts); ++i)
-    sum += integrate_adaptive([&](double t) { return std::exp(-t) * ring(std::exp(-t)); },
-                              cuts[i - 1], cuts[i], tolerance, 6);
-  return sum;
+  for (int i = 0; i < n; ++i) {
+    const double phi = start + 2 * kPi<double> * (i + 0.5) / angles;
+    sum += ray(std::cos(phi), std::sin(phi));
+  }
+  return sum / n;
 }
 
-/// The same of Beckmann's, over slopes along (outside) and across (inside) the direction.
+/// Mean of f(h) over the normals of `ggx` that `wo` sees; `edges(h)` change sign where f is not
+/// smooth. As Ggx::sample_visible: `angles` of u1, for each of them all u2.
+template <class F, class Edges>
+double visible_mean(const Ggx<double>& ggx, Vec3d wo, const F& f, const Edges& edges, int angles) {
+  const Vec3d w = normalize(Vec3d{ggx.ax * wo.x, ggx.ay * wo.y, wo.z});
+  const auto ray = [&](double c, double s) {
+    // The tail of steep facets is as long as 1 / alpha^2: x^4 = 1 - u2, but for the last 1e-12.
+    const auto normal = [&](double x) {
+      const double rise = x * x * x * x * (1 + w.z), low = (1 + w.z) - rise;
+      const double r = std::sqrt(std::max(0.0, low * (1 - w.z + rise)));
+      return normalize(Vec3d{ggx.ax * (r * c + w.x), ggx.ay * (r * s + w.y), rise});
+    };
+    return integrate_between_edges([&](double x) { return 4 * x * x * x * f(normal(x)); },
+                                   [&](double x) { return edges(normal(x)); }, 1e-3, 1);
+  };
+  return turn_mean(ray, std::atan2(w.y, w.x), angles, ggx.ax == ggx.ay);
+}
+
+/// The same of Beckmann's, over slopes as polar coordinates.
 template <class F, class Edges>
 double visible_mean(const Beckmann<double>& facets, Vec3d wo, const F& f, const Edges& edges,
-                    double tolerance) {
+                    int angles) {
   const double t = facets.tangent(wo), l = std::hypot(t, wo.z), c = wo.z / l, s = t / l;
   const double cx = t > 0 ? facets.ax * wo.x / t : 1, cy = t > 0 ? facets.ay * wo.y / t : 0;
-  constexpr double reach = 5.5;  // e^(-5.5^2) = 7e-14
-  const bool half = facets.ax == facets.ay;
-  const auto line = [&](double x) {
-    const auto normal = [&](double y) {
-      const double u = x * cx - y * cy, v = x * cy + y * cx;
-      return normalize(Vec3d{-facets.ax * u, -facets.ay * v, 1});
+  constexpr double reach = 5.5;               // e^(-5.5^2) = 7e-14
+  const auto ray = [&](double x, double y) {  // x along the direction, y across
+    const double u = x * cx - y * cy, v = x * cy + y * cx;
+    const auto normal = [&](double r) {
+      return normalize(Vec3d{-facets.ax * u * r, -facets.ay * v * r, 1});
     };
-    double sum = 0;
-    for (const double from : {0.0, -reach}) {
-      sum +=
-          integrate_between_edges([&](double y) { return std::exp(-y * y) * f(normal(y)); },
-                                  [&](double y) { return edges(normal(y)); }, from, from + reach);
-      if (half) break;
-    }
-    return (c - s * x) * std::exp(-x * x) / kPi<double> * sum * (half ? 2 : 1);
+    const double end = s * x * reach > c ? c / (s * x) : reach;  // facets that face away
+    return integrate_between_edges(
+        [&](double r) { return 2 * r * std::exp(-r * r) * (c - s * x * r) * f(normal(r)); },
+        [&](double r) { return edges(normal(r)); }, 0, end);
   };
-  const double end = c < reach * s ? c / s : reach;
-  const double mid = std::min(0.0, end - 1);
-  const double sum = integrate_adaptive(line, -reach, mid, tolerance, 6) +
-                     integrate_adaptive(line, mid, end, tolerance, 6);
-  return sum / (c + facets.shadow(wo) / l);
+  return turn_mean(ray, 0, angles, facets.ax == facets.ay) / (c + facets.shadow(wo) / l);
 }
 
 }  // namespace mms::materials::tables
