@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/seldom.h"
 #include "base/short_list.h"
 #include "lang/source.h"
 
@@ -117,17 +118,23 @@ struct Expr {
   Operator op = Operator::Add;
   BasicType basic = BasicType::Real;
   bool parenthesised = false;
-  Span span;     ///< all of it
-  Span op_span;  ///< Unary, Binary: the operator
-  double real = 0;
-  std::int64_t integer = 0;
-  std::string text;
+  std::uint32_t rows = 1;  ///< Array
+  Span span;               ///< all of it
+  union {
+    std::int64_t integer = 0;
+    double real;
+  };
   Path path;
   ShortList<ExprHandle, 2> args;
-  std::vector<Operator> ops;
   std::vector<Argument> arguments;
-  std::vector<Formal> formals;
-  std::uint32_t rows = 1;  ///< Array
+
+  /// What few expressions have: most of a script's memory is expressions.
+  struct Rare {
+    std::string text;
+    std::vector<Operator> ops;
+    std::vector<Formal> formals;
+  };
+  Seldom<Rare> rare;
 };
 
 /// `name = value;`, with or without a type, in a body.

@@ -172,7 +172,7 @@ void Elaborator::derive_node(std::uint32_t index, int direction, Tangents& t) {
     }
     case Op::ModR: {  // a - b floor(a / b)
       if (!d(1)) return set(d(0));
-      const Value quotient = scalar(TypeTable::kReal, node(Op::DivR, {n.args[0], n.args[1]}));
+      const Value quotient = scalar(kReal, node(Op::DivR, {n.args[0], n.args[1]}));
       const Ref whole = call_library("floor", {quotient}, deriving_.span).refs[0];
       return set(add(d(0), negative(product(whole, *d(1)))));
     }
@@ -257,10 +257,10 @@ Value Elaborator::derive_gradient(const Value& height, Span span) {
   for (int direction : {kAlongTangent, kAlongBitangent}) {
     Tangents t;
     const auto d = derive(t, height.refs[0], 0, direction);
-    parts.push_back(scalar(TypeTable::kReal, d ? *d : real(0)));
+    parts.push_back(scalar(kReal, d ? *d : real(0)));
   }
   Value v;
-  v.type = types_.array(TypeTable::kReal, 2);
+  v.type = types_.array(kReal, 2);
   v.parts = std::move(parts);
   return v;
 }
@@ -306,9 +306,7 @@ Value Elaborator::across_footprint(const Value& value) {
   flatten(columns[1], y);
   for (std::size_t k = 0; k < x.size(); ++k) {
     if (known(x[k]) && known(y[k])) continue;  // it does not move
-    x[k] = call_library("hypot", {scalar(TypeTable::kReal, x[k]), scalar(TypeTable::kReal, y[k])},
-                        user_span_)
-               .refs[0];
+    x[k] = call_library("hypot", {scalar(kReal, x[k]), scalar(kReal, y[k])}, user_span_).refs[0];
     module.functions[function_].nodes[x[k].node].steady = true;
   }
   deriving_ = outer;

@@ -14,8 +14,6 @@ using vm::SlotType;
 
 namespace {
 
-constexpr TypeId kComplex = TypeTable::kComplex, kSpectrum = TypeTable::kSpectrum;
-
 /// The next part of a rule.
 std::string_view take_part(std::string_view& rest) {
   const std::size_t end = rest.find(';');

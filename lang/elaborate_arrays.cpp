@@ -10,9 +10,6 @@ namespace {
 
 using vm::Op;
 
-constexpr TypeId kInt = TypeTable::kInteger, kReal = TypeTable::kReal,
-                 kComplex = TypeTable::kComplex;
-
 }  // namespace
 
 /// An array of `parts`, widened to the type they share.
@@ -20,8 +17,8 @@ Value Elaborator::array_of(std::vector<Value> parts, const std::vector<Span>& sp
   TypeId type = parts[0].type;
   for (std::size_t i = 1; i < parts.size(); ++i) {
     const TypeId joined = types_.join(type, parts[i].type);
-    if (joined == TypeTable::kPoison) {
-      if (type != TypeTable::kPoison && !parts[i].poison())
+    if (joined == kPoison) {
+      if (type != kPoison && !parts[i].poison())
         diagnostics_
             .add(Diag::TypeMismatch, i < spans.size() ? spans[i] : Span{}, types_.spell(type),
                  spell(parts[i]))
@@ -30,7 +27,7 @@ Value Elaborator::array_of(std::vector<Value> parts, const std::vector<Span>& sp
     }
     type = joined;
   }
-  if (type == TypeTable::kPoison) return {};
+  if (type == kPoison) return {};
   Value v;
   v.type = types_.array(type, static_cast<int>(parts.size()));
   for (const Value& p : parts) v.parts.push_back(widen(p, type));
@@ -70,8 +67,8 @@ Value Elaborator::index(const Value& array, const Value& i, Span span) {
     diagnostics_.add(Diag::NotIndexable, span, spell(array));
     return {};
   }
-  if (i.type != kInt) {
-    convert(i, kInt, span);
+  if (i.type != kInteger) {
+    convert(i, kInteger, span);
     return {};
   }
   const std::int64_t size = static_cast<std::int64_t>(array.parts.size());

@@ -30,12 +30,12 @@ const Elaborator::Signature& Elaborator::signature(const vm::Builtin* row) {
   const Context c{&s->graph, library_scope_};
   for (const Formal& formal : f.formals) {
     const TypeId t = resolve_type(c, formal.type, nullptr);
-    if (t != TypeTable::kMaterial) slot_types(t, s->params);
-    s->all_real = s->all_real && t == TypeTable::kReal;
+    if (t != kMaterial) slot_types(t, s->params);
+    s->all_real = s->all_real && t == kReal;
   }
   s->result = resolve_type(c, f.result, nullptr);
-  s->all_real = s->all_real && s->result == TypeTable::kReal && !f.formals.empty();
-  if (s->result != TypeTable::kMaterial) slot_types(s->result, s->results);
+  s->all_real = s->all_real && s->result == kReal && !f.formals.empty();
+  if (s->result != kMaterial) slot_types(s->result, s->results);
   return *s;
 }
 
@@ -231,7 +231,7 @@ Elaborator::Match Elaborator::match(const Candidate& k, const std::vector<BoundA
   for (std::size_t i = 0; i < f.formals.size(); ++i) {
     if (m.argument[i] < 0) continue;
     const TypeId type = args[static_cast<std::size_t>(m.argument[i])].value.type;
-    if (s && s->all_real && type == TypeTable::kSpectrum) {
+    if (s && s->all_real && type == kSpectrum) {
       cost += kLiftCost;
     } else if (!unify(c, f.formals[i].type, type, m.generics, cost)) {
       m.why = fmt::format("its argument `{}` does not take `{}`", f.formals[i].name.text,
@@ -254,7 +254,7 @@ Value Elaborator::call_builtin(const vm::Builtin* row, const Match& m,
     const int k = m.argument[i];
     Value v = k >= 0 ? std::move(args[static_cast<std::size_t>(k)].value)
                      : expr(c, f.formals[i].default_value);
-    if (s.all_real && v.type == TypeTable::kSpectrum) {
+    if (s.all_real && v.type == kSpectrum) {
       lifted = true;
     } else {
       v = convert(v, resolve_type(c, f.formals[i].type, &m.generics), span);
@@ -285,10 +285,10 @@ Value Elaborator::call_spectral(const vm::Builtin* row, const std::vector<Value>
   std::uint32_t mask = 0;
   for (std::size_t k = 0; k < values.size(); ++k) {
     refs.push_back(values[k].refs[0]);
-    if (values[k].type == TypeTable::kSpectrum) mask |= 1u << k;
+    if (values[k].type == kSpectrum) mask |= 1u << k;
   }
-  return scalar(TypeTable::kSpectrum, node(Op::CallSpectral, std::move(refs),
-                                           module.builtin(row, s.params, s.results), mask));
+  return scalar(kSpectrum, node(Op::CallSpectral, std::move(refs),
+                                module.builtin(row, s.params, s.results), mask));
 }
 
 /// The factor `t` of a combiner is a part of the whole.
@@ -304,7 +304,7 @@ Value Elaborator::make_material(const vm::Builtin* row, const std::vector<Value>
   auto tree = std::make_shared<MaterialTree>();
   tree->row = row;
   for (const Value& v : values) {
-    if (v.type == TypeTable::kMaterial) {
+    if (v.type == kMaterial) {
       tree->children.push_back(v.material);
       continue;
     }
@@ -312,7 +312,7 @@ Value Elaborator::make_material(const vm::Builtin* row, const std::vector<Value>
     slot_types(v.type, tree->types);
   }
   Value v;
-  v.type = TypeTable::kMaterial;
+  v.type = kMaterial;
   v.material = sole_part(module, *tree);
   if (!v.material) v.material = std::move(tree);
   return v;
@@ -323,7 +323,7 @@ Value Elaborator::construct(TypeId type, std::vector<BoundArgument>& args, Span 
   const Type t = types_[type];
   for (const BoundArgument& a : args)
     if (a.value.poison()) return {};
-  if (type == TypeTable::kPoison) return {};
+  if (type == kPoison) return {};
   if (t.form != Type::Form::Struct) {
     diagnostics_.add(Diag::NotCallable, span, types_.spell(type));
     return {};
@@ -396,8 +396,8 @@ Value Elaborator::call_function_value(const Value& f, std::vector<BoundArgument>
 
 Value Elaborator::call_lambda(const FunctionValue& f, std::vector<BoundArgument>& args, Span span) {
   const Expr& e = (*f.graph)[f.lambda];
-  if (args.size() != e.formals.size()) {
-    diagnostics_.add(Diag::ArgumentCount, span, "the function", e.formals.size(), args.size())
+  if (args.size() != e.rare->formals.size()) {
+    diagnostics_.add(Diag::ArgumentCount, span, "the function", e.rare->formals.size(), args.size())
         .note(e.span, "defined here");
     return {};
   }
@@ -407,7 +407,7 @@ Value Elaborator::call_lambda(const FunctionValue& f, std::vector<BoundArgument>
   }
   std::vector<int> order;
   std::string why;
-  if (!bind_formals(e.formals, args, order, why)) {
+  if (!bind_formals(e.rare->formals, args, order, why)) {
     std::vector<TypeId> types;
     for (const BoundArgument& a : args) types.push_back(a.value.type);
     diagnostics_.add(Diag::NoOverload, span, "function", types_.spell(types))
@@ -420,10 +420,10 @@ Value Elaborator::call_lambda(const FunctionValue& f, std::vector<BoundArgument>
     const BoundArgument& given = args[static_cast<std::size_t>(order[i])];
     Binding b;
     b.value = given.value;
-    if (e.formals[i].type)
-      b.value =
-          convert(b.value, resolve_type({f.graph, scope}, e.formals[i].type, nullptr), given.span);
-    declare(scope, e.formals[i].name, std::move(b));
+    if (e.rare->formals[i].type)
+      b.value = convert(b.value, resolve_type({f.graph, scope}, e.rare->formals[i].type, nullptr),
+                        given.span);
+    declare(scope, e.rare->formals[i].name, std::move(b));
   }
   frames_.push_back({nullptr, dynamic_, false, inlined_});
   diagnostics_.enter_call(span, "function");
@@ -485,12 +485,12 @@ Value Elaborator::call_script(FunctionDecl* d, const Match& m, std::vector<Bound
     const TypeId type = formal_type(c, f.formals[i].type, formals[i].type, g);
     formals[i] = convert(formals[i], type, span, (*d->graph)[f.formals[i].type].span);
     if (formals[i].poison()) return {};
-    if (formals[i].type != TypeTable::kInteger) continue;
+    if (formals[i].type != kInteger) continue;
     const auto n = known_integer(formals[i]);
     sizes.dims.emplace(f.formals[i].name.text, n ? static_cast<int>(*n) : kUnknownSize);
   }
   const TypeId result = resolve_type(c, f.result, &sizes);
-  if (result == TypeTable::kPoison) return {};
+  if (result == kPoison) return {};
   line_ = line_of(span);
   const Value v = invoke(d, formals, g, result, span);
   user_span_ = outer;

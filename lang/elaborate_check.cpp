@@ -40,7 +40,7 @@ Value Elaborator::unknown_value(TypeId type) {
     std::size_t next = 0;
     return unflatten(type, refs, next);
   }
-  if (type == TypeTable::kMaterial) return call_library("matte", {}, {});
+  if (type == kMaterial) return call_library("matte", {}, {});
   Value v;
   v.type = type;
   if (t.form == Type::Form::Array)
@@ -86,10 +86,17 @@ bool Elaborator::is_generic(Context c, const Function& f) {
          });
 }
 
+/// What the check made is forgotten, for the next one to be made in the same memory.
 void Elaborator::check_function(FunctionDecl* d) {
+  function_ = new_function("check " + d->function().name.text);
+  const Mark before = mark();
+  check_body(d);
+  forget_function(before);
+}
+
+void Elaborator::check_body(FunctionDecl* d) {
   const Function& f = d->function();
   const Context c{d->graph, d->scope};
-  function_ = new_function("check " + f.name.text);
   NameCheck(
       *d->graph, [&](const Path& path) { return find(c, path) != nullptr; },
       [&](const Path& path, Diag id, const auto& inside) { unknown_name(c, path, id, inside); })
@@ -98,11 +105,11 @@ void Elaborator::check_function(FunctionDecl* d) {
   std::vector<Value> formals;
   for (const Formal& formal : f.formals) {
     const TypeId type = resolve_type(c, formal.type, nullptr);
-    if (type == TypeTable::kPoison) return;
+    if (type == kPoison) return;
     formals.push_back(unknown_value(type));
   }
   const TypeId result = resolve_type(c, f.result, nullptr);
-  if (result == TypeTable::kPoison) return;
+  if (result == kPoison) return;
   unknown_arguments_ = !formals.empty();
   const Value v = invoke(d, formals, {}, result, f.header);
   unknown_arguments_ = false;

@@ -13,9 +13,6 @@ namespace {
 using vm::Op;
 using vm::SlotType;
 
-constexpr TypeId kLogic = TypeTable::kLogic, kInt = TypeTable::kInteger, kReal = TypeTable::kReal,
-                 kComplex = TypeTable::kComplex, kSpec = TypeTable::kSpectrum;
-
 /// `x ^ 3` with a small literal is multiplied out, whatever x is; any other power is a call. The
 /// text decides, not what is known at link, so that the value never depends on that.
 std::optional<std::int64_t> literal_power(const Expr& exponent) {
@@ -45,7 +42,7 @@ Value Elaborator::expr(Context c, ExprHandle h) {
   Value v;
   switch (e.form) {
     case Expr::Form::Integer:
-      v = scalar(kInt, integer(e.integer));
+      v = scalar(kInteger, integer(e.integer));
       break;
     case Expr::Form::Real:
       v = scalar(kReal, real(e.real));
@@ -57,8 +54,8 @@ Value Elaborator::expr(Context c, ExprHandle h) {
       v = scalar(kLogic, logic(e.integer != 0));
       break;
     case Expr::Form::String:
-      v.type = TypeTable::kString;
-      v.text = e.text;
+      v.type = kString;
+      v.text = e.rare->text;
       break;
     case Expr::Form::Name:
       v = expr_name(c, e);
@@ -93,7 +90,7 @@ Value Elaborator::expr(Context c, ExprHandle h) {
           break;
         }
       }
-      v.type = TypeTable::kClosure;
+      v.type = kClosure;
       v.function = std::move(f);
       break;
     }
@@ -157,8 +154,10 @@ Value Elaborator::evaluate_constant(Binding& b) {
   auto cached = b.cache.find(function_);
   if (cached != b.cache.end()) return cached->second;
   if (!b.cache.empty())
-    if (std::optional<Value> known = carried(b.cache.begin()->second))
+    if (std::optional<Value> known = carried(b.cache.begin()->second)) {
+      carried_.push_back(&b);
       return b.cache[function_] = std::move(*known);
+    }
   if (b.circular) return {};
   if (b.busy) {
     report_circle(b);
@@ -180,6 +179,7 @@ Value Elaborator::evaluate_constant(Binding& b) {
     const TypeId type = resolve_type({b.stated_in, b.scope}, b.stated, nullptr);
     v = convert(v, type, (*b.graph)[b.expr].span, (*b.stated_in)[b.stated].span);
   }
+  if (!passes(b.scope)) ++kept_;
   return b.cache[function_] = v;
 }
 
@@ -246,7 +246,7 @@ Value Elaborator::expr_variable(Context c, const Expr& e) {
   for (const vm::VariableInfo& v : vm::kVariables) {
     if (v.name != name || (v.visibility == vm::Visibility::Hidden && !c.scope->library)) continue;
     const int first = vm::input_index(v.variable);
-    if (v.slot_type() == SlotType::Spectrum) return scalar(kSpec, input(first));
+    if (v.slot_type() == SlotType::Spectrum) return scalar(kSpectrum, input(first));
     if (v.components() == 1) return scalar(kReal, input(first));
     auto row = [&](int begin, int size) {
       Value r;
@@ -330,9 +330,9 @@ Value Elaborator::expr_lazy(Context c, const Expr& e) {
 Value Elaborator::expr_chain(Context c, const Expr& e) {
   Value all;
   Value left = expr(c, e.args[0]);
-  for (std::size_t i = 0; i < e.ops.size(); ++i) {
+  for (std::size_t i = 0; i < e.rare->ops.size(); ++i) {
     Value right = expr(c, e.args[i + 1]);
-    const Value one = compare(e.ops[i], left, right, e.span);
+    const Value one = compare(e.rare->ops[i], left, right, e.span);
     all = i == 0 ? one : logical(Operator::And, all, one);
     left = std::move(right);
   }
@@ -343,7 +343,7 @@ Value Elaborator::expr_chain(Context c, const Expr& e) {
 Value Elaborator::join_arms(Context c, const Expr& e, ExprHandle value, const Value& v,
                             TypeId other) {
   const TypeId type = types_.join(v.type, other);
-  if (type != TypeTable::kPoison) return widen(v, type);
+  if (type != kPoison) return widen(v, type);
   diagnostics_.add(Diag::ArmsDiffer, e.span, spell(v), types_.spell(other))
       .note((*c.graph)[value].span, "an arm is here");
   return {};
@@ -366,9 +366,7 @@ Value Elaborator::expr_select(Context c, const Expr& e, std::size_t arm) {
     for (std::size_t k = arm; k < e.args.size() / 2 + 1; ++k)
       if (*decided ? k > arm : k == arm) out.push_back(e.args[2 * k]);
     const TypeId other = peek_joined(c, out);
-    return v.poison() || other == TypeTable::kPoison || other == v.type
-               ? v
-               : join_arms(c, e, value, v, other);
+    return v.poison() || other == kPoison || other == v.type ? v : join_arms(c, e, value, v, other);
   }
   ++dynamic_;
   Value a = expr(c, value);
@@ -376,7 +374,7 @@ Value Elaborator::expr_select(Context c, const Expr& e, std::size_t arm) {
   --dynamic_;
   if (cond.poison() || a.poison() || b.poison()) return {};
   const TypeId type = types_.join(a.type, b.type);
-  if (type == TypeTable::kPoison) {
+  if (type == kPoison) {
     diagnostics_.add(Diag::ArmsDiffer, e.span, spell(a), spell(b))
         .note((*c.graph)[value].span, fmt::format("this is `{}`", spell(a)));
     return {};
@@ -403,14 +401,14 @@ Value Elaborator::expr_convert(Context c, const Expr& e) {
   const Value& v = args[0].value;
   if (types_.widening(v.type, to) >= 0) return widen(v, to);
   const bool enumerated = types_[v.type].form == Type::Form::Enum;
-  if (to == kInt && enumerated) return scalar(kInt, v.refs[0]);
+  if (to == kInteger && enumerated) return scalar(kInteger, v.refs[0]);
   if (to == kReal && enumerated) return scalar(kReal, node(Op::RealOfInt, {v.refs[0]}));
-  if (to == kInt && v.type == kReal) return scalar(kInt, node(Op::IntOfReal, {v.refs[0]}));
-  if (v.type == kLogic && (to == kInt || to == kReal)) {
-    const Value one = scalar(to, to == kInt ? integer(1) : real(1)),
-                none = scalar(to, to == kInt ? integer(0) : real(0));
-    return scalar(
-        to, node(to == kInt ? Op::SelectI : Op::SelectR, {v.refs[0], one.refs[0], none.refs[0]}));
+  if (to == kInteger && v.type == kReal) return scalar(kInteger, node(Op::IntOfReal, {v.refs[0]}));
+  if (v.type == kLogic && (to == kInteger || to == kReal)) {
+    const Value one = scalar(to, to == kInteger ? integer(1) : real(1)),
+                none = scalar(to, to == kInteger ? integer(0) : real(0));
+    return scalar(to, node(to == kInteger ? Op::SelectI : Op::SelectR,
+                           {v.refs[0], one.refs[0], none.refs[0]}));
   }
   diagnostics_.add(Diag::NoConversion, e.span, spell(v), types_.spell(to));
   return {};

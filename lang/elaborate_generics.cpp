@@ -49,7 +49,7 @@ TypeId Elaborator::result_of(const Value& f, const std::vector<TypeId>& types, S
     args.push_back({std::nullopt, std::move(v), span});
   }
   const TypeId stated = peek_call(f, args);
-  if (stated != TypeTable::kPoison) return stated;
+  if (stated != kPoison) return stated;
   for (BoundArgument& a : args) a.value = unknown_value(a.value.type);
   const bool outer = unknown_arguments_;
   unknown_arguments_ = true;
@@ -67,7 +67,7 @@ bool Elaborator::infer_results(Context c, const Function& f, const std::vector<V
     const std::map<std::string, TypeId> before = g.types;
     for (std::size_t i = 0; i < f.formals.size(); ++i) {
       const TypeExpr& t = (*c.graph)[f.formals[i].type];
-      if (t.form != TypeExpr::Form::Function || formals[i].type != TypeTable::kClosure) continue;
+      if (t.form != TypeExpr::Form::Function || formals[i].type != kClosure) continue;
       if (!mentions_generic(c, t.element, g)) continue;
       std::vector<TypeId> types;
       bool known_types = true;
@@ -78,11 +78,10 @@ bool Elaborator::infer_results(Context c, const Function& f, const std::vector<V
       if (!known_types) continue;
       const std::size_t errors = diagnostics_.error_count();
       const TypeId type = result_of(formals[i], types, spans[i]);
-      if (diagnostics_.error_count() > errors ||
-          (type == TypeTable::kPoison && diagnostics_.has_errors()))
+      if (diagnostics_.error_count() > errors || (type == kPoison && diagnostics_.has_errors()))
         return false;  // told, now or before
       int cost = 0;
-      if (type != TypeTable::kPoison) unify(c, t.element, type, g, cost);
+      if (type != kPoison) unify(c, t.element, type, g, cost);
     }
     if (g.types == before) break;
   }

@@ -111,10 +111,10 @@ Value Elaborator::image_handle(const std::vector<BoundArgument>& args) {
 }
 
 Value Elaborator::handle_of(const vm::ImageUse& use) {
-  if (use.file.empty() && unknown_arguments_) return unknown_value(TypeTable::kInteger);
+  if (use.file.empty() && unknown_arguments_) return unknown_value(kInteger);
   if (!check_words(use)) return {};
   const auto number = image_number(use);
-  return scalar(TypeTable::kInteger, integer(number ? std::int64_t(*number) : -1));
+  return scalar(kInteger, integer(number ? std::int64_t(*number) : -1));
 }
 
 /// `intrinsic::curve(file, unit, column)`: an integer.
@@ -126,11 +126,11 @@ Value Elaborator::curve_handle(const std::vector<BoundArgument>& args) {
 /// `intrinsic::image_fact(handle, name, otherwise)`: a real that the file states.
 Value Elaborator::image_fact(const std::vector<BoundArgument>& args) {
   const auto handle = known_integer(args[0].value);
-  if (!handle) return unknown_value(TypeTable::kReal);
+  if (!handle) return unknown_value(kReal);
   const std::string& name = args[1].value.text;
   const auto fact = *handle < 0 ? vm::magenta()->number(name)
                                 : module.images[std::size_t(*handle)].image->number(name);
-  return fact ? scalar(TypeTable::kReal, real(*fact)) : args[2].value;
+  return fact ? scalar(kReal, real(*fact)) : args[2].value;
 }
 
 /// Tells of every image that could not be read, and of all places that name it, whatever they want

@@ -58,12 +58,11 @@ Value Elaborator::call_intrinsic(std::string_view name, const std::vector<BoundA
 
 /// The array of a spectrum's values.
 Value Elaborator::values_of(const Value& spectrum) {
-  const Value whole = convert(spectrum, TypeTable::kSpectrum, user_span_);
+  const Value whole = convert(spectrum, kSpectrum, user_span_);
   if (whole.poison()) return {};
   const Ref s = localise(whole.refs[0]);
   std::vector<Value> parts;
-  for (std::uint32_t k = 0; k < kWavelengths; ++k)
-    parts.push_back(scalar(TypeTable::kReal, component(s, k)));
+  for (std::uint32_t k = 0; k < kWavelengths; ++k) parts.push_back(scalar(kReal, component(s, k)));
   return array_of(std::move(parts), {});
 }
 
@@ -81,7 +80,7 @@ Value Elaborator::tabulate(const Value& count, const Value& f) {
   }
   std::vector<Value> parts;
   for (std::int64_t k = 0; k < *n; ++k) {
-    const Value index = scalar(TypeTable::kInteger, integer(k));
+    const Value index = scalar(kInteger, integer(k));
     parts.push_back(call_function_value(f, {{std::nullopt, index, user_span_}}, user_span_));
     if (parts.back().poison()) return {};
   }
@@ -133,7 +132,7 @@ Ref Elaborator::stand_in() { return node(Op::LoadLocal, {}, 0, 0, {SlotType::Rea
 /// The real value of `f` at `x`.
 std::optional<Ref> Elaborator::call_for_real(const Value& f, Value x) {
   const Value y = call_function_value(f, {{std::nullopt, std::move(x), user_span_}}, user_span_);
-  const Value r = y.poison() ? y : convert(y, TypeTable::kReal, user_span_);
+  const Value r = y.poison() ? y : convert(y, kReal, user_span_);
   return r.poison() ? std::nullopt : std::optional<Ref>(localise(r.refs[0]));
 }
 
@@ -145,6 +144,7 @@ Value Elaborator::gradient_of(const Value& f, const Value& point) {
   for (const Ref r : at) {
     x.push_back(stand_in());
     stands_for_[x.back()] = localise(r);
+    ++kept_;
   }
   std::size_t next = 0;
   const auto value = call_for_real(f, unflatten(point.type, x, next));
@@ -167,15 +167,16 @@ Value Elaborator::gradient_of(const Value& f, const Value& point) {
 Value Elaborator::at_each_wavelength(const Value& f, const Value& spectrum) {
   const std::uint32_t first = static_cast<std::uint32_t>(module.functions[function_].nodes.size());
   const Ref x = stand_in();
+  ++kept_;
   stands_for_[x] = real(0);  // a wavelength is the same in all of the pixel
-  const auto value = call_for_real(f, scalar(TypeTable::kReal, x));
+  const auto value = call_for_real(f, scalar(kReal, x));
   if (!value) return {};
   const Ref s = localise(spectrum.refs[0]);
-  if (const auto whole = widened(first, x, s, *value)) return scalar(TypeTable::kSpectrum, *whole);
+  if (const auto whole = widened(first, x, s, *value)) return scalar(kSpectrum, *whole);
   std::vector<Ref> values;
   for (std::uint32_t k = 0; k < kWavelengths; ++k)
     values.push_back(substitute(first, {x}, {component(s, k)}, {*value})[0]);
-  return scalar(TypeTable::kSpectrum, node(Op::Pack, std::move(values)));
+  return scalar(kSpectrum, node(Op::Pack, std::move(values)));
 }
 
 Ref Elaborator::component(Ref spectrum, std::uint32_t k) {

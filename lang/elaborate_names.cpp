@@ -49,6 +49,7 @@ Binding* Elaborator::declare(Scope* scope, const Name& name, Binding binding) {
 }
 
 void Elaborator::declare_function(Context c, FunctionHandle h) {
+  if (passes(c.scope)) ++kept_;
   decls_.push_back({c.graph, h, c.scope, c.scope->library, false});
   Binding b;
   b.form = Binding::Form::Functions;
@@ -71,10 +72,10 @@ TypeId Elaborator::type_of(Binding& b) {
   if (b.busy) {
     diagnostics_.add(Diag::DefinedByItself, b.span)
         .help("a value has a size that is known at link: a type cannot contain itself");
-    return TypeTable::kPoison;
+    return kPoison;
   }
   const Deeper deeper(depth_);
-  if (too_deep(b.span)) return TypeTable::kPoison;
+  if (too_deep(b.span)) return kPoison;
   b.busy = true;
   const TypeId type = define({b.graph, b.scope}, *b.definition);
   b.busy = false;
@@ -99,10 +100,10 @@ TypeId Elaborator::define(Context c, const TypeDefinition& t) {
       diagnostics_.add(Diag::Redefined, f.name.span, f.name.text);
     s.parts.push_back(resolve_type(c, f.type, nullptr));
     s.members.push_back(f.name.text);
-    if (s.parts.back() == TypeTable::kPoison) return TypeTable::kPoison;
+    if (s.parts.back() == kPoison) return kPoison;
   }
   const TypeId type = types_.intern(std::move(s));
-  return too_large(type, t.name.span) ? TypeTable::kPoison : type;
+  return too_large(type, t.name.span) ? kPoison : type;
 }
 
 void Elaborator::declare_constant(Context c, const Constant& k) {
@@ -273,16 +274,16 @@ TypeId Elaborator::resolve_type(Context c, TypeHandle h, const Generics* generic
       }
       if (t.form == TypeExpr::Form::Generic) {
         diagnostics_.add(Diag::GenericHere, t.span, t.path[0].text);
-        return TypeTable::kPoison;
+        return kPoison;
       }
       Binding* b = find(c, t.path);
       if (!b) {
         unknown_name(c, t.path, Diag::UnknownType);
-        return TypeTable::kPoison;
+        return kPoison;
       }
       if (b->form != Binding::Form::Type) {
         diagnostics_.add(Diag::NotAType, t.span, t.path.back().text).note(b->span, "defined here");
-        return TypeTable::kPoison;
+        return kPoison;
       }
       return type_of(*b);
     }
@@ -290,13 +291,13 @@ TypeId Elaborator::resolve_type(Context c, TypeHandle h, const Generics* generic
       TypeId type = resolve_type(c, t.element, generics);
       for (std::size_t i = t.dims.size(); i-- > 0;) {
         const int size = resolve_dim(c, t.dims[i], generics);
-        if (size < 0 || type == TypeTable::kPoison) return TypeTable::kPoison;
+        if (size < 0 || type == kPoison) return kPoison;
         type = types_.array(type, size);
-        if (too_large(type, t.span)) return TypeTable::kPoison;
+        if (too_large(type, t.span)) return kPoison;
       }
       if (types_.rank(type) > 2) {
         diagnostics_.add(Diag::ArrayRank, t.span);
-        return TypeTable::kPoison;
+        return kPoison;
       }
       return type;
     }
@@ -306,7 +307,7 @@ TypeId Elaborator::resolve_type(Context c, TypeHandle h, const Generics* generic
       return types_.function(std::move(formals), resolve_type(c, t.element, generics));
     }
   }
-  return TypeTable::kPoison;
+  return kPoison;
 }
 
 bool Elaborator::unify_dim(Context c, const TypeExpr::Dim& d, int size, Generics& g) {
@@ -340,7 +341,7 @@ void Elaborator::collect_generics(Context c, TypeHandle h, Generics& g) {
 /// Fits `actual` to a formal's type, binding generics and dimension variables on the way.
 bool Elaborator::unify(Context c, TypeHandle pattern, TypeId actual, Generics& g, int& cost) {
   constexpr int kGenericCost = 10;  // an exact overload beats a generic one
-  if (actual == TypeTable::kPoison) return true;
+  if (actual == kPoison) return true;
   const TypeExpr& t = (*c.graph)[pattern];
   const bool introduced = t.path.size() == 1 && g.names.count(t.path[0].text) > 0;
   if (t.form == TypeExpr::Form::Generic || (t.form == TypeExpr::Form::Named && introduced)) {
@@ -348,7 +349,7 @@ bool Elaborator::unify(Context c, TypeHandle pattern, TypeId actual, Generics& g
     auto [it, is_new] = g.types.try_emplace(t.path[0].text, actual);
     if (is_new) return true;
     const TypeId joined = types_.join(it->second, actual);
-    if (joined == TypeTable::kPoison) return false;
+    if (joined == kPoison) return false;
     it->second = joined;
     return true;
   }
@@ -361,7 +362,7 @@ bool Elaborator::unify(Context c, TypeHandle pattern, TypeId actual, Generics& g
     return unify(c, t.element, element, g, cost);
   }
   if (t.form == TypeExpr::Form::Function) {
-    if (actual == TypeTable::kClosure) return true;
+    if (actual == kClosure) return true;
     const Type& f = types_[actual];
     if (f.form != Type::Form::Function || f.parts.size() != t.formals.size() + 1) return false;
     for (std::size_t i = 0; i < t.formals.size(); ++i)

@@ -11,13 +11,9 @@ namespace {
 using vm::Op;
 using vm::SlotType;
 
-constexpr TypeId kInt = TypeTable::kInteger, kReal = TypeTable::kReal,
-                 kComplex = TypeTable::kComplex, kSpec = TypeTable::kSpectrum,
-                 kLogic = TypeTable::kLogic, kMat = TypeTable::kMaterial;
-
 /// The instruction of an arithmetic operator on one slot type.
 std::optional<Op> machine_op(Operator op, TypeId type) {
-  const bool s = type == kSpec, i = type == kInt;
+  const bool s = type == kSpectrum, i = type == kInteger;
   switch (op) {
     case Operator::Add:
       return s ? Op::AddS : i ? Op::AddI : Op::AddR;
@@ -81,11 +77,12 @@ Value Elaborator::arithmetic(Operator op, const Value& a, const Value& b, Span s
     }
     return array_of(std::move(parts), {});
   }
-  if (a.type == kMat || b.type == kMat) {
+  if (a.type == kMaterial || b.type == kMaterial) {
     if (op == Operator::Add && a.type == b.type) return call_library("add", {a, b}, span);
     if (op == Operator::Mul && a.type != b.type &&
-        TypeTable::is_number(a.type == kMat ? b.type : a.type))
-      return call_library("scale", {a.type == kMat ? a : b, a.type == kMat ? b : a}, span);
+        TypeTable::is_number(a.type == kMaterial ? b.type : a.type))
+      return call_library("scale", {a.type == kMaterial ? a : b, a.type == kMaterial ? b : a},
+                          span);
     return bad_operands(op, a, b, span);
   }
   if (!TypeTable::is_number(a.type) || !TypeTable::is_number(b.type))
@@ -94,8 +91,8 @@ Value Elaborator::arithmetic(Operator op, const Value& a, const Value& b, Span s
   if (op == Operator::Div && b.refs.size() == 1 && known_number(module, b.refs[0]) == 0.0)
     diagnostics_.add(Diag::DivisionByZero, span);
   TypeId type = types_.join(a.type, b.type);
-  if (type == TypeTable::kPoison) return bad_operands(op, a, b, span);
-  if (type == kInt && op == Operator::Div) {
+  if (type == kPoison) return bad_operands(op, a, b, span);
+  if (type == kInteger && op == Operator::Div) {
     type = kReal;
   }
   const Value x = widen(a, type), y = widen(b, type);
@@ -126,7 +123,7 @@ Value Elaborator::complex_arithmetic(Operator op, const Value& a, const Value& b
 /// a^n, n >= 1, by repeated squaring, lowest bit of n first.
 Value Elaborator::repeated_square(const Value& a, std::int64_t n, Span span) {
   std::optional<Value> product;
-  for (Value square = a.type == kInt ? widen(a, kReal) : a;;
+  for (Value square = a.type == kInteger ? widen(a, kReal) : a;;
        square = arithmetic(Operator::Mul, square, square, span)) {
     if (n & 1) product = product ? arithmetic(Operator::Mul, *product, square, span) : square;
     n >>= 1;
@@ -137,10 +134,11 @@ Value Elaborator::repeated_square(const Value& a, std::int64_t n, Span span) {
 Value Elaborator::power(const Value& a, const Value& b, Span span) {
   if (a.type == kComplex || b.type == kComplex)
     return call_library("pow", {widen(a, kComplex), widen(b, kComplex)}, span);
-  if (b.type == kInt && a.type != kSpec)
-    return call_library("powi", {a.type == kInt ? widen(a, kReal) : a, b}, span);
-  if (a.type == kInt || b.type == kInt)
-    return power(a.type == kInt ? widen(a, kReal) : a, b.type == kInt ? widen(b, kReal) : b, span);
+  if (b.type == kInteger && a.type != kSpectrum)
+    return call_library("powi", {a.type == kInteger ? widen(a, kReal) : a, b}, span);
+  if (a.type == kInteger || b.type == kInteger)
+    return power(a.type == kInteger ? widen(a, kReal) : a, b.type == kInteger ? widen(b, kReal) : b,
+                 span);
   return call_library("pow", {a, b}, span);
 }
 
@@ -170,18 +168,19 @@ Value Elaborator::equal(const Value& a, const Value& b) {
 Value Elaborator::compare(Operator op, const Value& a, const Value& b, Span span) {
   if (a.poison() || b.poison()) return {};
   const TypeId type = types_.join(a.type, b.type);
-  if (type == TypeTable::kPoison || !types_.is_numeric(type) || types_.scalar(type) == kSpec)
+  if (type == kPoison || !types_.is_numeric(type) || types_.scalar(type) == kSpectrum)
     return bad_operands(op, a, b, span);
   const Value x = widen(a, type), y = widen(b, type);
   if (op == Operator::Eq || op == Operator::Ne) {
     const Value eq = equal(x, y);
     return op == Operator::Eq ? eq : scalar(kLogic, node(Op::Not, {eq.refs[0]}));
   }
-  if (type != kInt && type != kReal) return bad_operands(op, a, b, span);
+  if (type != kInteger && type != kReal) return bad_operands(op, a, b, span);
   const bool swap = op == Operator::Gt || op == Operator::Ge;
   const bool strict = op == Operator::Lt || op == Operator::Gt;
   const Ref l = swap ? y.refs[0] : x.refs[0], r = swap ? x.refs[0] : y.refs[0];
-  const Op instruction = type == kInt ? (strict ? Op::LtI : Op::LeI) : (strict ? Op::LtR : Op::LeR);
+  const Op instruction =
+      type == kInteger ? (strict ? Op::LtI : Op::LeI) : (strict ? Op::LtR : Op::LeR);
   return scalar(kLogic, node(instruction, {l, r}));
 }
 
@@ -199,12 +198,12 @@ Value Elaborator::negate(const Value& a, Span span) {
     return r;
   }
   switch (a.type) {
-    case kInt:
-      return scalar(kInt, node(Op::NegI, {a.refs[0]}));
+    case kInteger:
+      return scalar(kInteger, node(Op::NegI, {a.refs[0]}));
     case kReal:
       return scalar(kReal, node(Op::NegR, {a.refs[0]}));
-    case kSpec:
-      return scalar(kSpec, node(Op::NegS, {a.refs[0]}));
+    case kSpectrum:
+      return scalar(kSpectrum, node(Op::NegS, {a.refs[0]}));
     case kComplex:
       return {kComplex, {node(Op::NegR, {a.refs[0]}), node(Op::NegR, {a.refs[1]})}, {}, {}, {}, {}};
     default:
@@ -218,12 +217,12 @@ bool Elaborator::can_fuse(const Value& a, const Value& b, const Value& c) const 
   bool real_or_spectrum = false;
   for (const Value* v : {&a, &b, &c}) {
     const TypeId s = types_.scalar(v->type);
-    if (s != kInt && s != kReal && s != kSpec) return false;
-    real_or_spectrum = real_or_spectrum || s != kInt;
+    if (s != kInteger && s != kReal && s != kSpectrum) return false;
+    real_or_spectrum = real_or_spectrum || s != kInteger;
   }
   const TypeId product_a = types_.scalar(a.type), product_b = types_.scalar(b.type);
   // An integer product is formed as integers, which is another value.
-  return real_or_spectrum && !(product_a == kInt && product_b == kInt);
+  return real_or_spectrum && !(product_a == kInteger && product_b == kInteger);
 }
 
 Value Elaborator::fused(const Value& a, const Value& b, const Value& c, Span span) {
@@ -245,12 +244,13 @@ Value Elaborator::fused(const Value& a, const Value& b, const Value& c, Span spa
     }
     return array_of(std::move(parts), {});
   }
-  const TypeId type = types_.join(types_.join(a.type, b.type), c.type) == kSpec ? kSpec : kReal;
+  const TypeId type =
+      types_.join(types_.join(a.type, b.type), c.type) == kSpectrum ? kSpectrum : kReal;
   // A real product added to a spectrum is formed once, as a real.
-  if (type == kSpec && types_.join(a.type, b.type) != kSpec)
+  if (type == kSpectrum && types_.join(a.type, b.type) != kSpectrum)
     return arithmetic(Operator::Add, arithmetic(Operator::Mul, a, b, span), c, span);
   return scalar(type,
-                node(type == kSpec ? Op::FmaS : Op::FmaR,
+                node(type == kSpectrum ? Op::FmaS : Op::FmaR,
                      {widen(a, type).refs[0], widen(b, type).refs[0], widen(c, type).refs[0]}));
 }
 

@@ -11,11 +11,6 @@
 namespace mms::lang {
 namespace {
 
-constexpr TypeId kPoison = TypeTable::kPoison, kLogic = TypeTable::kLogic,
-                 kInt = TypeTable::kInteger, kReal = TypeTable::kReal,
-                 kComplex = TypeTable::kComplex, kSpec = TypeTable::kSpectrum,
-                 kMat = TypeTable::kMaterial;
-
 /// Constants and lambdas that are looked into from one another.
 constexpr int kDeepestPeek = 16;
 
@@ -31,11 +26,12 @@ TypeId Elaborator::arithmetic_type(Operator op, TypeId a, TypeId b) {
                                            types_.is_array(b) ? types_[b].parts[0] : b);
     return element == kPoison ? kPoison : types_.array(element, size);
   }
-  if (a == kMat || b == kMat) return op == Operator::Add || op == Operator::Mul ? kMat : kPoison;
+  if (a == kMaterial || b == kMaterial)
+    return op == Operator::Add || op == Operator::Mul ? kMaterial : kPoison;
   if (!TypeTable::is_number(a) || !TypeTable::is_number(b)) return kPoison;
   const TypeId type = types_.join(a, b);
   const bool real = op == Operator::Div || op == Operator::Pow;
-  return type == kInt && real ? kReal : type;
+  return type == kInteger && real ? kReal : type;
 }
 
 TypeId Elaborator::operator_type(Operator op, TypeId a, TypeId b) {
@@ -95,9 +91,10 @@ TypeId Elaborator::peek_candidates(const std::vector<std::vector<Candidate>>& le
     }
     if (!winner) continue;
     if (winner->row) {
-      const bool lifted = std::any_of(args.begin(), args.end(),
-                                      [](const BoundArgument& a) { return a.value.type == kSpec; });
-      return lifted && signature(winner->row).all_real ? kSpec : signature(winner->row).result;
+      const bool lifted = std::any_of(args.begin(), args.end(), [](const BoundArgument& a) {
+        return a.value.type == kSpectrum;
+      });
+      return lifted && signature(winner->row).all_real ? kSpectrum : signature(winner->row).result;
     }
     const Context c{winner->decl->graph, winner->decl->scope};
     const TypeHandle result = winner->decl->function().result;
@@ -120,7 +117,7 @@ TypeId Elaborator::peek_call(Context c, const Path& path, const std::vector<Boun
 
 TypeId Elaborator::peek_call(const Value& f, const std::vector<BoundArgument>& args) {
   if (types_[f.type].form == Type::Form::Function) return types_[f.type].parts.back();
-  if (f.type != TypeTable::kClosure || !f.function) return kPoison;
+  if (f.type != kClosure || !f.function) return kPoison;
   const FunctionValue& fn = *f.function;
   if (fn.op) {
     const TypeId b = args.size() == 2 ? args[1].value.type : kPoison;
@@ -129,7 +126,7 @@ TypeId Elaborator::peek_call(const Value& f, const std::vector<BoundArgument>& a
   if (!fn.path.empty()) return peek_call(Context{fn.graph, fn.scope}, fn.path, args);
   if (!fn.lambda || peeking_ >= kDeepestPeek) return kPoison;
   const Expr& e = (*fn.graph)[fn.lambda];
-  if (e.formals.size() != args.size()) return kPoison;
+  if (e.rare->formals.size() != args.size()) return kPoison;
   Scope inside;
   inside.parent = fn.scope;
   inside.library = fn.scope->library;
@@ -137,9 +134,9 @@ TypeId Elaborator::peek_call(const Value& f, const std::vector<BoundArgument>& a
   for (std::size_t k = 0; k < args.size(); ++k) {
     Binding b;
     if (args[k].name) return kPoison;
-    b.value.type =
-        e.formals[k].type ? resolve_type(c, e.formals[k].type, nullptr) : args[k].value.type;
-    inside.names.emplace(e.formals[k].name.text, std::move(b));
+    b.value.type = e.rare->formals[k].type ? resolve_type(c, e.rare->formals[k].type, nullptr)
+                                           : args[k].value.type;
+    inside.names.emplace(e.rare->formals[k].name.text, std::move(b));
   }
   ++peeking_;
   const TypeId type = peek(c, e.args[0]);
@@ -166,13 +163,13 @@ TypeId Elaborator::peek(Context c, ExprHandle h) {
   const Expr& e = (*c.graph)[h];
   switch (e.form) {
     case Expr::Form::Integer:
-      return kInt;
+      return kInteger;
     case Expr::Form::Real:
       return kReal;
     case Expr::Form::Imaginary:
       return kComplex;
     case Expr::Form::String:
-      return TypeTable::kString;
+      return kString;
     case Expr::Form::Logic:
     case Expr::Form::Chain:
       return kLogic;
@@ -182,7 +179,7 @@ TypeId Elaborator::peek(Context c, ExprHandle h) {
       return expr_variable(c, e).type;
     case Expr::Form::FunctionValue:
     case Expr::Form::Lambda:
-      return TypeTable::kClosure;
+      return kClosure;
     case Expr::Form::Unary:
       return e.op == Operator::Neg ? peek(c, e.args[0]) : kLogic;
     case Expr::Form::Binary: {

@@ -107,7 +107,7 @@ void Elaborator::declare_generics(Scope* scope, const Function& f, const Generic
   }
   for (const auto& [name, size] : g.dims) {
     Binding b;
-    b.value = scalar(TypeTable::kInteger, integer(size));
+    b.value = scalar(kInteger, integer(size));
     declare(scope, {name, f.name.span}, std::move(b));
   }
 }
@@ -176,6 +176,7 @@ Ref Elaborator::call_site(Instance& instance, const std::vector<Ref>& args) {
     const Ref arg = localise(instance.captures[k]);
     module.functions[function_].nodes[r.node].args.push_back(arg);
   }
+  ++kept_;
   instance.sites.push_back({function_, r.node});
   return r;
 }

@@ -39,7 +39,26 @@ std::optional<std::string> read_file(const std::filesystem::path& path) {
 
 }  // namespace
 
+Elaborator::Mark Elaborator::mark() {
+  carried_.clear();
+  return {scopes_.size(), kept_};
+}
+
+/// The scopes made since, if nothing refers to them any more.
+bool Elaborator::forget_scopes(Mark since) {
+  if (kept_ != since.kept) return false;
+  for (Binding* b : carried_) b->cache.erase(function_);
+  scopes_.erase(scopes_.begin() + std::ptrdiff_t(since.scopes), scopes_.end());
+  return true;
+}
+
+/// The current function, which is the last, and its scopes, if nothing refers to them any more.
+void Elaborator::forget_function(Mark since) {
+  if (forget_scopes(since)) module.functions.pop_back();
+}
+
 FunctionId Elaborator::new_function(std::string name) {
+  ++kept_;
   module.functions.push_back({std::move(name), {}, {}, {}, false});
   return static_cast<FunctionId>(module.functions.size() - 1);
 }
@@ -196,7 +215,7 @@ void Elaborator::describe_param(const Graph& graph, const Param& p, Scope* scope
     if (k) info.value.push_back(k->type == SlotType::Real ? k->f64 : k->integer);
   }
   auto number = [&](ExprHandle h) -> std::optional<double> {
-    const Value n = convert(expr(c, h), TypeTable::kReal, graph[h].span);
+    const Value n = convert(expr(c, h), kReal, graph[h].span);
     const vm::Constant* k = n.poison() ? nullptr : known(n.refs[0]);
     if (!n.poison() && !k)
       diagnostics_.add(Diag::NeedsConstant, graph[h].span, "the range of a param");
@@ -220,7 +239,7 @@ void Elaborator::describe_param(const Graph& graph, const Param& p, Scope* scope
           .help("there are `label`, `unit` and `page`");
       continue;
     }
-    *slot = convert(text, TypeTable::kString, graph[m.value].span).text;
+    *slot = convert(text, kString, graph[m.value].span).text;
   }
   params.push_back(std::move(info));
 }
@@ -281,6 +300,7 @@ void Elaborator::check_constant(const Graph& graph, const Constant& k, Scope* sc
 
 /// Makes the current function, whose value is `v`, visible from outside.
 void Elaborator::export_value(const std::string& name, const Value& v) {
+  ++kept_;
   if (v.poison() || !types_.is_numeric(v.type)) return;
   std::vector<Ref> refs;
   flatten(v, refs);
@@ -305,9 +325,11 @@ void Elaborator::descriptor(const NamedDescriptor& named) {
   e.name = named.name;
   e.function = function_;
   line_ = line_of(d.name.span);
+  const Mark before = mark();
   Scope* inner = new_scope(named.scope);
   body({named.graph, inner}, d.body);
   outputs(e, inner);
+  forget_scopes(before);
   descriptors.push_back(std::move(e));
 }
 
@@ -324,16 +346,15 @@ void Elaborator::outputs(ElaboratedDescriptor& e, Scope* scope) {
       case OutputRow::Shape::Material:
         return call_library(surface ? "matte" : "isotropic", {}, d.name.span);
       case OutputRow::Shape::Spectrum:
-        return widen(scalar(TypeTable::kReal, real(surface && o == Output::Scattering ? 1 : 0)),
-                     TypeTable::kSpectrum);
+        return widen(scalar(kReal, real(surface && o == Output::Scattering ? 1 : 0)), kSpectrum);
       case OutputRow::Shape::Real:
-        return scalar(TypeTable::kReal, real(0));
+        return scalar(kReal, real(0));
       case OutputRow::Shape::Real2:
         break;
     }
     Value zero;
-    zero.type = types_.array(TypeTable::kReal, 2);
-    zero.parts = {scalar(TypeTable::kReal, real(0)), scalar(TypeTable::kReal, real(0))};
+    zero.type = types_.array(kReal, 2);
+    zero.parts = {scalar(kReal, real(0)), scalar(kReal, real(0))};
     return zero;
   };
   for (std::size_t o = 0; o < vm::kOutputCount; ++o) {

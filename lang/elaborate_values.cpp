@@ -12,10 +12,6 @@ namespace {
 using vm::Op;
 using vm::SlotType;
 
-constexpr TypeId kInt = TypeTable::kInteger, kReal = TypeTable::kReal,
-                 kComplex = TypeTable::kComplex, kSpec = TypeTable::kSpectrum,
-                 kMat = TypeTable::kMaterial;
-
 }  // namespace
 
 Ref Elaborator::node(Op op, Refs args, std::uint32_t a, std::uint32_t b, SlotTypes results) {
@@ -178,7 +174,7 @@ void Elaborator::slot_types(TypeId type, std::vector<SlotType>& out) const {
 
 /// \pre types_.widening(v.type, to) >= 0
 Value Elaborator::widen(const Value& v, TypeId to) {
-  if (v.type == to || v.poison() || to == TypeTable::kPoison) return v;
+  if (v.type == to || v.poison() || to == kPoison) return v;
   if (types_.is_array(to)) {
     Value r;
     r.type = to;
@@ -191,8 +187,8 @@ Value Elaborator::widen(const Value& v, TypeId to) {
     return r;
   }
   Ref r = v.refs[0];
-  if (v.type == kInt) r = node(Op::RealOfInt, {r});
-  if (to == kSpec) return scalar(kSpec, node(Op::Splat, {r}));
+  if (v.type == kInteger) r = node(Op::RealOfInt, {r});
+  if (to == kSpectrum) return scalar(kSpectrum, node(Op::Splat, {r}));
   if (to == kComplex) return {kComplex, {r, real(0)}, {}, {}, {}, {}};
   return scalar(to, r);
 }
@@ -202,11 +198,11 @@ Value Elaborator::convert(const Value& v, TypeId to, Span span, Span why) {
   Diagnostic& d = diagnostics_.add(Diag::TypeMismatch, span, types_.spell(to), spell(v));
   d.labelled(fmt::format("this is `{}`", spell(v)));
   if (why) d.note(why, "the type is stated here");
-  if (TypeTable::is_number(v.type) && (to == kInt || to == kReal))
+  if (TypeTable::is_number(v.type) && (to == kInteger || to == kReal))
     d.help(fmt::format("write `{}(...)` to convert it", types_.spell(to)));
-  if (v.type == kReal && to == kMat)
+  if (v.type == kReal && to == kMaterial)
     d.help("a material is made by a function, for example `matte(0.5)`");
-  if (v.type == kSpec && to == kMat)
+  if (v.type == kSpectrum && to == kMaterial)
     d.help("a colour alone is no material: write `matte(...)` around it");
   return {};
 }
@@ -230,9 +226,9 @@ Value Elaborator::choose_refs(Ref condition, const Value& a, const Value& b) {
 Value Elaborator::choose(Ref condition, const Value& a, const Value& b, Span span) {
   if (a.poison() || b.poison()) return {};
   if (types_.is_numeric(a.type)) return choose_refs(condition, a, b);
-  if (a.type == kMat) {
+  if (a.type == kMaterial) {
     Value v;
-    v.type = kMat;
+    v.type = kMaterial;
     v.material = choose_material(condition, a.material, b.material);
     return v;
   }
@@ -330,7 +326,7 @@ MaterialPtr Elaborator::choose_material(Ref condition, const MaterialPtr& a, con
   next = 0;
   const MaterialPtr arm_b = with_params(*b, rb, next);
   Value va, vb;
-  va.type = vb.type = kMat;
+  va.type = vb.type = kMaterial;
   va.material = arm_a;
   vb.material = arm_b;
   return call_library("mix", {va, vb, scalar(kReal, result(weight))}, {}).material;

@@ -91,7 +91,7 @@ class Elaborator {
   struct Signature {
     Graph graph;
     std::vector<vm::SlotType> params, results;
-    TypeId result = TypeTable::kPoison;
+    TypeId result = kPoison;
     bool all_real = true;  ///< then a spectrum may stand for any argument
     const Function& function() const { return graph.functions[0]; }
   };
@@ -104,7 +104,7 @@ class Elaborator {
     std::vector<Ref> captures;
     std::vector<CallSite> sites;
     std::size_t own_params = 0;
-    TypeId result = TypeTable::kPoison;
+    TypeId result = kPoison;
     bool complete = false;
   };
   struct Frame {
@@ -124,7 +124,19 @@ class Elaborator {
     std::size_t depth;
   };
 
+  /// How far the lists that only grow had come. What was made since may be forgotten where nothing
+  /// that lasts refers to it: where `kept_` is what it was.
+  struct Mark {
+    std::size_t scopes;
+    std::uint64_t kept;
+  };
+  Mark mark();
+  bool forget_scopes(Mark since);
+  void forget_function(Mark since);
+
   // --- names and types (elaborate_names.cpp) ---
+  /// Whether it is the scope of one call, one lambda or one descriptor.
+  static bool passes(const Scope* scope) { return scope->parent && !scope->file; }
   Scope* new_scope(Scope* parent, bool library = false);
   Binding* declare(Scope* scope, const Name& name, Binding binding);
   void declare_function(Context c, FunctionHandle h);
@@ -317,6 +329,7 @@ class Elaborator {
   Value unknown_value(TypeId type);
   Ref unknown_slot(vm::SlotType type);
   void check_function(FunctionDecl* d);
+  void check_body(FunctionDecl* d);
   void check_definitions();
   bool is_generic(Context c, const Function& f);
   // --- rules of the library's rows (derive_rules.cpp) ---
@@ -394,6 +407,9 @@ class Elaborator {
   std::map<FunctionId, int> derivative_orders_;               ///< of derived functions
   std::map<std::pair<FunctionId, int>, FunctionId> derived_;  ///< by function and direction
   Deriving deriving_;
+  std::uint64_t kept_ = 0;         ///< how often something was made that refers to a function or a
+                                   ///< scope and may be asked for when those are done
+  std::vector<Binding*> carried_;  ///< constants that this function took from another's cache
   std::map<Ref, Ref>
       stands_for_;  ///< the value whose place an argument holds that nobody knows yet
   Span user_span_;  ///< where a script called the function of the library that is being inlined

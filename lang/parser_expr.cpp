@@ -95,11 +95,10 @@ ExprHandle Parser::add(Expr e, std::uint32_t begin) {
   return {static_cast<std::uint32_t>(graph_.exprs.size() - 1)};
 }
 
-ExprHandle Parser::binary(Operator op, Span op_span, ExprHandle a, ExprHandle b) {
+ExprHandle Parser::binary(Operator op, ExprHandle a, ExprHandle b) {
   Expr e;
   e.form = Expr::Form::Binary;
   e.op = op;
-  e.op_span = op_span;
   e.args = {a, b};
   return add(std::move(e), graph_[a].span.begin);
 }
@@ -130,7 +129,7 @@ ExprHandle Parser::lambda() {
     Formal f;
     if (!at_bare_formal()) f.type = type();
     f.name = name("a name for the formal");
-    if (!panicking_) e.formals.push_back(std::move(f));
+    if (!panicking_) e.rare.make().formals.push_back(std::move(f));
     more = accept(Tok::Comma);
   }
   close(Tok::RightParen, opener);
@@ -155,7 +154,7 @@ ExprHandle Parser::infix(int level) {
     take();
     if (i->op == Operator::Mod && ends_operand(peek().tok)) return percentage(left, sign);
     const ExprHandle right = infix(i->level + 1);
-    left = binary(i->op, sign, left, right);
+    left = binary(i->op, left, right);
   }
   return left;
 }
@@ -165,20 +164,19 @@ ExprHandle Parser::comparisons(ExprHandle first, int level) {
   Expr e;
   e.form = Expr::Form::Chain;
   e.args = {first};
-  Span sign;
   for (const Infix* i = find_infix(peek().tok); i && i->level == level && !panicking_;
        i = find_infix(peek().tok)) {
-    if (e.ops.size() == kTreeHeight) {
+    if (e.rare->ops.size() == kTreeHeight) {
       if (!stopped_)
         diagnostics_.add(Diag::ExpressionTooLong, from(graph_[first].span.begin), kTreeHeight);
       stopped_ = panicking_ = true;
       return first;
     }
-    sign = span(take());
-    e.ops.push_back(i->op);
+    take();
+    e.rare.make().ops.push_back(i->op);
     e.args.push_back(infix(level + 1));
   }
-  if (e.ops.size() == 1) return binary(e.ops[0], sign, e.args[0], e.args[1]);
+  if (e.rare->ops.size() == 1) return binary(e.rare->ops[0], e.args[0], e.args[1]);
   return add(std::move(e), graph_[first].span.begin);
 }
 
@@ -200,7 +198,6 @@ ExprHandle Parser::negation() {
   Expr e;
   e.form = Expr::Form::Unary;
   e.op = Operator::Not;
-  e.op_span = span(t);
   e.args = {infix(kNot)};
   return add(std::move(e), t.begin);
 }
@@ -218,7 +215,6 @@ ExprHandle Parser::minus(ExprHandle (Parser::*operand)()) {
   Expr e;
   e.form = Expr::Form::Unary;
   e.op = Operator::Neg;
-  e.op_span = span(t);
   const bool literal = at(Tok::IntegerLiteral) && peek(1).tok != Tok::Caret;
   e.args = {literal ? integer(kLargestInteger + 1) : (this->*operand)()};
   return add(std::move(e), t.begin);
@@ -231,7 +227,7 @@ ExprHandle Parser::power() {
   if (at(Tok::StarStar)) report(Diag::PowerSign, sign).help("write `^`");
   take();
   const ExprHandle right = exponent();
-  return binary(Operator::Pow, sign, base, right);
+  return binary(Operator::Pow, base, right);
 }
 
 ExprHandle Parser::exponent() {
@@ -247,7 +243,7 @@ ExprHandle Parser::literal() {
   switch (t.tok) {
     case Tok::StringLiteral:
       e.form = Expr::Form::String;
-      e.text = string_value(text(t));
+      e.rare.make().text = string_value(text(t));
       break;
     case Tok::KwTrue:
     case Tok::KwFalse:
@@ -382,7 +378,7 @@ ExprHandle Parser::condition() {
   report(Diag::AssignmentInCondition, sign).help("write `==` to compare");
   take();
   const ExprHandle right = expr();
-  return binary(Operator::Eq, sign, left, right);
+  return binary(Operator::Eq, left, right);
 }
 
 ExprHandle Parser::function_value() {

@@ -125,7 +125,7 @@ class Parser {
   ExprHandle index(ExprHandle what);
   ExprHandle missing();
   ExprHandle add(Expr e, std::uint32_t begin);
-  ExprHandle binary(Operator op, Span op_span, ExprHandle a, ExprHandle b);
+  ExprHandle binary(Operator op, ExprHandle a, ExprHandle b);
 
   // Items (parser_item.cpp).
   void item();

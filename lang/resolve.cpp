@@ -102,7 +102,7 @@ void NameCheck::expr(ExprHandle h) {
       break;
     }
     case Expr::Form::Lambda:
-      formals(e.formals);
+      formals(e.rare->formals);
       break;
     default:
       break;

@@ -41,13 +41,13 @@ struct Type {
   friend auto operator<=>(const Type&, const Type&) = default;
 };
 
+/// The basic types have fixed ids, in the order of Type::Form.
+inline constexpr TypeId kPoison = 0, kLogic = 1, kInteger = 2, kReal = 3, kComplex = 4,
+                        kSpectrum = 5, kMaterial = 6, kString = 7, kClosure = 8;
+
 /// Owns every type of one link.
 class TypeTable {
  public:
-  // The basic types have fixed ids, in the order of Type::Form.
-  static constexpr TypeId kPoison = 0, kLogic = 1, kInteger = 2, kReal = 3, kComplex = 4,
-                          kSpectrum = 5, kMaterial = 6, kString = 7, kClosure = 8;
-
   TypeTable();
   const Type& operator[](TypeId id) const { return types_[id]; }
   TypeId basic(BasicType b) const;

@@ -60,14 +60,14 @@ struct MaterialTree {
 using MaterialPtr = std::shared_ptr<const MaterialTree>;
 
 struct Value {
-  TypeId type = TypeTable::kPoison;
+  TypeId type = kPoison;
   ShortList<Ref, 2> refs;    ///< scalars: one; complex: real part, imaginary part
   std::vector<Value> parts;  ///< arrays and structures
   MaterialPtr material;
   std::shared_ptr<const FunctionValue> function;
   std::string text;
 
-  bool poison() const { return type == TypeTable::kPoison; }
+  bool poison() const { return type == kPoison; }
 };
 
 /// What a name stands for.
@@ -80,7 +80,7 @@ struct Binding {
   Value value;                                 // Value
   std::vector<FunctionDecl*> functions;        // Functions
   std::vector<const vm::Builtin*> rows;        // Functions of the library
-  TypeId type = TypeTable::kPoison;            // Type, once it is resolved
+  TypeId type = kPoison;                       // Type, once it is resolved
   const TypeDefinition* definition = nullptr;  // Type, until it is resolved
   Scope* scope = nullptr;                      // Namespace; Constant, Type: where it is evaluated
   const Graph* graph = nullptr;                // Constant, Type

@@ -160,5 +160,13 @@ TEST_CASE("combining depends on the order, and the unit interval is half open an
   CHECK(std::abs(squares / n - 1 / 3.0) < 6 * std::sqrt(4 / 45.0 / n));
 }
 
+TEST_CASE("a vector of floats has floats in it") {
+  volatile double third = 1.0 / 3;  // no float, and nothing the compiler knows
+  const Vec3d exact(third, -third, 1 + third);
+  const Vec3d back{Vec3f(exact)};
+  volatile float x = float(third), z = float(1 + third);
+  CHECK(back == Vec3d(double(x), -double(x), double(z)));
+}
+
 }  // namespace
 }  // namespace mms

@@ -185,7 +185,7 @@ TEST_CASE("spans are exact") {
   CHECK(cut(f.body.assignments.at(0).span) == "b = (a + 1) * 2;");
   const Expr& product = p.graph[f.body.assignments[0].value];
   CHECK(cut(product.span) == "(a + 1) * 2");
-  CHECK(cut(product.op_span) == "*");
+  CHECK(product.op == Operator::Mul);
   CHECK(p.graph[product.args[0]].parenthesised);
   CHECK(cut(p.graph[product.args[0]].span) == "(a + 1)");
   CHECK(cut(p.graph[f.value].span) == "g(b)");

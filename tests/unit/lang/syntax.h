@@ -102,7 +102,7 @@ inline std::string shape(const Graph& g, ExprHandle h) {
     case Expr::Form::Imaginary:
       return fmt::format("{}i", e.real);
     case Expr::Form::String:
-      return "'" + e.text + "'";
+      return "'" + e.rare->text + "'";
     case Expr::Form::Logic:
       return e.integer ? "true" : "false";
     case Expr::Form::Name:
@@ -116,8 +116,8 @@ inline std::string shape(const Graph& g, ExprHandle h) {
       return fmt::format("({}{})", spelling(e.op), list());
     case Expr::Form::Chain: {
       std::string out = "(chain " + shape(g, e.args[0]);
-      for (std::size_t i = 0; i < e.ops.size(); ++i)
-        out += fmt::format(" {} {}", spelling(e.ops[i]), shape(g, e.args[i + 1]));
+      for (std::size_t i = 0; i < e.rare->ops.size(); ++i)
+        out += fmt::format(" {} {}", spelling(e.rare->ops[i]), shape(g, e.args[i + 1]));
       return out + ")";
     }
     case Expr::Form::Call:
@@ -130,7 +130,7 @@ inline std::string shape(const Graph& g, ExprHandle h) {
       return "(field" + list() + " " + shape(e.path) + ")";
     case Expr::Form::Lambda: {
       std::string formals;
-      for (const Formal& f : e.formals)
+      for (const Formal& f : e.rare->formals)
         formals += (formals.empty() ? "" : ",") + shape(g, f.type) + " " + f.name.text;
       return "(lambda [" + formals + "]" + list() + ")";
     }
