@@ -75,7 +75,8 @@ bool Flights::through_even(Flight& f, float length, const PathView& path) {
     for (int k = 0; k < kWavelengths; ++k)
       optical[k] =
           extinction[k] > 0 ? -std::expm1(-extinction[k] * length) / extinction[k] : length;
-    *path.radiance += f.carried.weighted(Technique::Scattering, 0, world_.estimator) * f.even.emission * optical;
+    *path.radiance +=
+        f.carried.weighted(Technique::Scattering, 0, world_.estimator) * f.even.emission * optical;
   }
   const float hero = scattering[0];
   const float s = hero > 0 ? -std::log1p(-random(f, path)) / hero : kInfinity;
@@ -155,7 +156,8 @@ void Flights::collide(Flight& f, const Coefficients& c, const PathView& path) {
     return;
   }
   if (!c.emission.is_black())
-    *path.radiance += f.carried.weighted(Technique::Scattering, 0, world_.estimator) * c.emission * (1 / majorant);
+    *path.radiance += f.carried.weighted(Technique::Scattering, 0, world_.estimator) * c.emission *
+                      (1 / majorant);
   if (random(f, path) < scattered[0]) {
     f.carried.happened(scattered, scattered);
     if (f.known > 1) f.forget_media();

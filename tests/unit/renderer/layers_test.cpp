@@ -148,7 +148,7 @@ TEST_CASE("an EXR file holds every layer by name, and what is known of the pictu
 
 TEST_CASE("the albedo of a surface that lies in something is of its index over that") {
   // Glass of water's index in water, whose reflection is black: it lets all light through. Over
-  // vacuum it would lose what water reflects, one part in fifteen over a ball's disc.
+  // vacuum it would lose what water reflects, 4 % over this picture.
   HandProgram h;
   const auto glass = [&](double reflected) {
     return HandProgram::lobe(Lobe::Dielectric,
