@@ -29,6 +29,8 @@ class CameraRays {
   };
   LensPoint sample_lens(double u, double v) const;
   double pdf_lens() const;
+  /// The lens is one point, whatever chooses it.
+  bool pinhole() const { return !(camera_.aperture > 0); }
 
   /// What is sensed from a point of the lens along a direction.
   struct Sensed {

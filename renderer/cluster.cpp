@@ -52,38 +52,63 @@ using Row = std::array<float, 8>;
 /// estimates, which are sums over all, by the square of the distance of rows.
 constexpr int kRows = 4096;
 
-std::vector<Row> make_rows() {
-  const double norm = 1 / (materials::cie1931_integral().y * materials::illuminant_d65_luminance());
-  std::vector<Row> rows;
-  for (int i = 0; i <= kRows; ++i) {
-    const double u = std::min(double(i) / kRows, 1 - 0x1p-53);
-    const Wavelengths hero = sample_wavelengths(u);
-    const double nm = hero.nm[0];
-    const Vec3d weights = materials::cie1931(nm) * (norm / hero.pdf[0]);
-    rows.push_back({hero.nm[0], hero.pdf[0], float(materials::rgb_red(float(nm))),
-                    float(materials::rgb_green(float(nm))), float(materials::illuminant_d65(nm)),
-                    float(weights.x), float(weights.y), float(weights.z)});
-  }
+/// Wavelengths of one cluster are so many rows apart.
+constexpr int kStep = kRows / kWavelengths;
+static_assert(kStep * kWavelengths == kRows);
+
+/// For each number below kStep that many rows on, around the end: what each row has, for all the
+/// wavelengths of a cluster. Twice, so that those from any hero on lie in one piece.
+using Rows = std::array<std::array<float, 2 * kWavelengths>, 8>;
+
+Row row(int i) {
+  static const double norm =
+      1 / (materials::cie1931_integral().y * materials::illuminant_d65_luminance());
+  const Wavelengths hero = sample_wavelengths(std::min(double(i) / kRows, 1 - 0x1p-53));
+  const double nm = hero.nm[0];
+  const Vec3d weights = materials::cie1931(nm) * (norm / hero.pdf[0]);
+  return {hero.nm[0],
+          hero.pdf[0],
+          float(materials::rgb_red(float(nm))),
+          float(materials::rgb_green(float(nm))),
+          float(materials::illuminant_d65(nm)),
+          float(weights.x),
+          float(weights.y),
+          float(weights.z)};
+}
+
+std::vector<Rows> make_rows() {
+  std::vector<Rows> rows(kStep + 1);
+  for (int i = 0; i <= kStep; ++i)
+    for (int w = 0; w < kWavelengths; ++w) {
+      const Row r = row(i + kStep * w);
+      for (std::size_t k = 0; k < r.size(); ++k)
+        rows[i][k][w] = rows[i][k][w + kWavelengths] = r[k];
+    }
   return rows;
 }
 
 }  // namespace
 
 Cluster sample_cluster(double u, int wavelengths) {
-  static const std::vector<Row> rows = make_rows();
+  static const std::vector<Rows> rows = make_rows();
+  const double place = (u - std::floor(u)) * kRows;
+  const int first = std::min(int(place), kRows - 1);
+  const auto beyond = float(place - first);
+  const int hero = first / kStep;
+  const Rows &low = rows[first % kStep], &high = rows[first % kStep + 1];
   Cluster c;
-  for (int i = 0; i < kWavelengths; ++i) {
-    double place = u + double(i % wavelengths) / wavelengths;
-    place = (place - std::floor(place)) * kRows;
-    const auto row = std::size_t(place);
-    const auto beyond = float(place - double(row));
-    Row r;
-    for (std::size_t k = 0; k < r.size(); ++k)
-      r[k] = rows[row][k] + (rows[row + 1][k] - rows[row][k]) * beyond;
-    c.lambda.nm[i] = r[0], c.lambda.pdf[i] = r[1];
-    c.red[i] = r[2], c.green[i] = r[3], c.daylight[i] = r[4];
-    c.x[i] = r[5], c.y[i] = r[6], c.z[i] = r[7];
-  }
+  Spectrumf* const all[] = {&c.lambda.nm, &c.lambda.pdf, &c.red, &c.green,
+                            &c.daylight,  &c.x,          &c.y,   &c.z};
+  for (std::size_t k = 0; k < low.size(); ++k)
+    for (int i = 0; i < kWavelengths; ++i)
+      all[k]->v[i] = low[k][hero + i] + (high[k][hero + i] - low[k][hero + i]) * beyond;
+  if (wavelengths == kWavelengths) return c;
+  const Cluster every = c;  // fewer lie as far apart, and come again
+  const Spectrumf* const from[] = {&every.lambda.nm, &every.lambda.pdf, &every.red, &every.green,
+                                   &every.daylight,  &every.x,          &every.y,   &every.z};
+  for (std::size_t k = 0; k < low.size(); ++k)
+    for (int i = 0; i < kWavelengths; ++i)
+      all[k]->v[i] = from[k]->v[i % wavelengths * (kWavelengths / wavelengths)];
   return c;
 }
 

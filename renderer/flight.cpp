@@ -52,7 +52,8 @@ Spectrumf Carried::weighted(Technique by, double light_density, Estimator estima
 }
 
 Flight camera_flight(const World& world, int path, const Sampler& sampler, double x, double y) {
-  const auto [lens_u, lens_v] = sampler.pair(kLensPair);
+  const auto [lens_u, lens_v] =
+      world.camera.pinhole() ? std::array<float, 2>{0.5f, 0.5f} : sampler.pair(kLensPair);
   const CameraRay ray = world.camera.at(x, y, lens_u, lens_v);
   Flight f;
   f.origin = ray.origin;

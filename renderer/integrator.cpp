@@ -26,6 +26,8 @@ constexpr float kSafeContribution = 1.0f / 3;
 
 /// Rays that fly together, at least: enough to fill batches though scripts differ.
 constexpr std::size_t kTogether = 2048;
+/// And where no script runs: few enough to stay in the cache.
+constexpr std::size_t kTogetherUnasked = 256;
 
 /// Share of them that is left for the next time, lest few long ways hold up the rest.
 constexpr double kLeftFlying = 0.5;
@@ -101,15 +103,19 @@ struct Integrator::Scatterer {
 };
 
 Integrator::Integrator(const World& world)
-    : world_(world), scripts_(world.compiled), flights_(world, scripts_) {}
+    : world_(world),
+      scripts_(world.compiled),
+      flights_(world, scripts_),
+      surroundings_(world, scripts_) {}
 
 void Integrator::trace(std::span<const PixelSample> samples, std::span<FilmSample> stream) {
   paths_.clear();
   paths_.reserve(samples.size());  // views point into it
   views_.clear();
   now_.clear();
+  const std::size_t together = world_.compiled.executable() ? kTogether : kTogetherUnasked;
   for (;;) {
-    while (paths_.size() < samples.size() && now_.size() < kTogether)
+    while (paths_.size() < samples.size() && now_.size() < together)
       start(samples[paths_.size()], stream[paths_.size()]);
     if (now_.empty()) break;
     flights_.fly(now_, views_, kLeftFlying);
@@ -145,15 +151,19 @@ void Integrator::start(const PixelSample& s, FilmSample& point) {
   now_.push_back(camera_flight(world_, i, p.sampler, point.x, point.y));
 }
 
+/// Adds what a shadow ray found.
+void Integrator::receive(const Flight& f) {
+  if (f.end != End::Free) return;
+  paths_[f.path].lit += f.carried.weighted(Technique::Light, f.light_density, world_.estimator);
+}
+
 /// Adds what shadow rays found and what the environment sends along rays that left the scene, and
 /// orders the rest by what has to be run for them. What is not done stays for the next time.
 void Integrator::gather() {
   for (const Flight& f : now_) {
     if (f.errand != Errand::Shadow || f.end == End::Flying) continue;
-    Path& p = paths_[f.path];
-    p.asks = false;
-    if (f.end == End::Free)
-      p.lit += f.carried.weighted(Technique::Light, f.light_density, world_.estimator);
+    paths_[f.path].asks = false;
+    receive(f);
   }
   vertices_.clear();
   arrived_.clear();
@@ -225,7 +235,11 @@ void Integrator::shade(std::span<const Vertex> group) {
     float* params = &params_[i * stride];
     const bool lost = scripts_.given_up(i);
     if (!lost) scripts_.params(d->shade.material, i, params);
-    if (!lost && any_nan({params, std::size_t(c.material.param_count())})) {
+    std::array<double, 2> gradient{0, 0};
+    if (!lost && c.bumps && !v.point.object->displaced)
+      gradient = {scripts_.real(d->shade.gradient[0], i), scripts_.real(d->shade.gradient[1], i)};
+    if (!lost && (any_nan({params, std::size_t(c.material.param_count())}) ||
+                  !std::isfinite(gradient[0] + gradient[1]))) {
       // Told, not black: the sample is dropped and counted.
       paths_[v.from->path].radiance = Spectrumf(std::numeric_limits<float>::quiet_NaN());
       continue;
@@ -244,9 +258,6 @@ void Integrator::shade(std::span<const Vertex> group) {
     if (c.emits)
       add_emission(v, scripted_emission(world_.compiled, scripts_, *d, EntryKind::Shade, i, s,
                                         v.point.view, scratch_));
-    std::array<double, 2> gradient{0, 0};
-    if (c.bumps && !v.point.object->displaced)
-      gradient = {scripts_.real(d->shade.gradient[0], i), scripts_.real(d->shade.gradient[1], i)};
     scatter(v, {c.material, params, false, shading_frame(s, gradient, v.point.view)});
   }
 }
@@ -302,12 +313,14 @@ void Integrator::connect(const Vertex& v, const Scatterer& s, bool each_light) {
   const Path& p = paths_[v.from->path];
   const Vec3d from = v.point.surface.position;
   const int pair = pair_of_bounce(p.depth - 1, kLight);
+  const Receiver receiver(from, Vec3d(s.receiver(v.point)));
   if (!each_light) {
     const auto [light_u, light_v] = p.sampler.pair(pair);
-    connect(v, s, world_.lights.sample({from, Vec3d(s.receiver(v.point))}, light_u, light_v));
+    connect(v, s, world_.lights.sample(receiver, light_u, light_v));
     return;
   }
   for (int i = 0; i < world_.lights.count(); ++i) {
+    if (world_.lights.below_horizon(i, receiver)) continue;
     const auto [light_u, light_v] = p.sampler.pair(i == 0 ? pair : pair_of_light(i));
     connect(v, s, world_.lights.sample_one(i, from, light_u, light_v));
   }
@@ -358,6 +371,13 @@ void Integrator::connect(const Vertex& v, const Scatterer& s, const LightSample&
 }
 
 void Integrator::send_shadow_rays() {
+  if (world_.plain) {
+    for (Flight& f : shadows_)
+      if (f.carried.beta.is_black()) f.end = End::Lost;
+    flights_.fly(shadows_, views_);
+    for (const Flight& f : shadows_) receive(f);
+    return;
+  }
   for (const Flight& f : shadows_) {
     if (f.carried.beta.is_black()) continue;
     paths_[f.path].asks = true;

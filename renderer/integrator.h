@@ -11,6 +11,7 @@
 
 #include "renderer/film.h"
 #include "renderer/flight.h"
+#include "renderer/surroundings.h"
 
 namespace mms::renderer {
 
@@ -57,11 +58,6 @@ class Integrator {
     int kind;  ///< as in Vertex
     const Flight* flight;
   };
-  /// A vertex whose surface lies in something that bends light too.
-  struct Nested {
-    Vertex* vertex;
-    int around;  ///< object
-  };
   /// Light drawn for a vertex, on its way to be asked for and shadowed.
   struct Connection {
     int flight;  ///< in shadows_
@@ -69,6 +65,7 @@ class Integrator {
   };
 
   void start(const PixelSample& sample, FilmSample& stream);
+  void receive(const Flight& f);
   void gather();
   void ask_surroundings();
   void shade(std::span<const Vertex> group);
@@ -84,14 +81,15 @@ class Integrator {
   const World& world_;
   Scripts scripts_;
   Flights flights_;
+  Surroundings surroundings_;
   std::vector<Path> paths_;
   std::vector<PathView> views_;
   std::vector<Flight> now_, next_, shadows_;
   std::vector<Arrived> arrived_;
   std::vector<Vertex> vertices_;
   std::vector<Connection> connections_;
-  std::vector<Nested> nested_;
-  std::vector<ScriptPoint> light_points_, outside_points_;
+  std::vector<Surroundings::Place> places_;
+  std::vector<ScriptPoint> light_points_;
   std::vector<const ScriptPoint*> lanes_;
   std::vector<float> params_, scratch_;
 };

@@ -9,35 +9,11 @@
 
 namespace mms::renderer {
 
-/// Nested dielectrics: a surface that lies in another object has its index over that object's,
-/// which is asked for at the very point.
+/// Finds what the surfaces that were met lie in.
 void Integrator::ask_surroundings() {
-  nested_.clear();
-  for (Vertex& v : vertices_) {
-    if (v.from->end != End::Surface) continue;
-    const int object = v.from->hit.object;
-    if (world_.scene.objects[object].priority == 0) continue;
-    const int around = surrounding(world_.scene, v.from->media, object);
-    if (around < 0) continue;
-    const Surface& s = world_.surface_of_object(around);
-    if (s.script && world_.compiled.of(s.script).index) nested_.push_back({&v, around});
-  }
-  const auto surface = [&](const Nested& n) { return world_.scene.objects[n.around].surface; };
-  std::ranges::stable_sort(nested_, {}, surface);
-  for_each_batch(std::span(nested_), scripts_.width(), surface, [&](std::span<const Nested> batch) {
-    outside_points_.clear();
-    for (const Nested& n : batch) {
-      outside_points_.push_back(n.vertex->point);
-      outside_points_.back().object = &world_.scene.objects[n.around];
-    }
-    lanes_.clear();
-    for (const ScriptPoint& p : outside_points_) lanes_.push_back(&p);
-    const vm::Descriptor& d = *world_.scene.surfaces[surface(batch[0])].script;
-    scripts_.run(d, EntryKind::Shade, lanes_);
-    for (int i = 0; i < int(batch.size()); ++i)
-      if (!scripts_.given_up(i))
-        batch[i].vertex->outside = scripts_.spectrum(*world_.compiled.of(&d).index, i);
-  });
+  places_.clear();
+  for (Vertex& v : vertices_) places_.push_back({v.from, &v.point, &v.outside});
+  surroundings_.ask(places_);
 }
 
 /// Asks scripted emitters what they radiate towards the vertices that drew them.

@@ -11,6 +11,7 @@
 #include "materials/phase.h"
 #include "renderer/batches.h"
 #include "renderer/flight.h"
+#include "renderer/surroundings.h"
 #include "renderer/vertex.h"
 #include "renderer/world.h"
 
@@ -49,7 +50,11 @@ constexpr int kRun = 256;
 class Gaze {
  public:
   Gaze(const World& world, int samples)
-      : world_(world), scripts_(world.compiled), flights_(world, scripts_), samples_(samples) {}
+      : world_(world),
+        scripts_(world.compiled),
+        flights_(world, scripts_),
+        surroundings_(world, scripts_),
+        samples_(samples) {}
 
   /// Fills the layers of pixels [x0, x1) of row y of a picture that is `width` wide.
   void trace(int y, int x0, int x1, int width, Layers& layers) {
@@ -65,6 +70,7 @@ class Gaze {
   struct Vertex {
     const Flight* from;
     ScriptPoint point;
+    Spectrumf outside{1.0f};  ///< index of what its surface lies in
   };
 
   /// Weight of what the end of `f` sends back.
@@ -100,11 +106,17 @@ class Gaze {
       const bool medium = f.end == End::Medium;
       l.kind = medium ? surfaces() + world_.scene.objects[f.medium].volume
                       : world_.scene.objects[f.hit.object].surface;
-      vertices.push_back({&f, script_point(world_, f, medium ? nullptr : &f.hit, views_[f.path])});
+      vertices.push_back({&f, script_point(world_, f, medium ? nullptr : &f.hit, views_[f.path]),
+                          Spectrumf(1.0f)});
       l.position = vertices.back().point.surface.position;
       l.distance = f.t;
     }
     const auto kind = [&](const Vertex& v) { return looks_[v.from->path].kind; };
+    if (world_.nested) {
+      std::vector<Surroundings::Place> places;
+      for (Vertex& v : vertices) places.push_back({v.from, &v.point, &v.outside});
+      surroundings_.ask(places);
+    }
     std::ranges::stable_sort(vertices, {}, kind);
     for_each_batch(std::span(vertices), scripts_.width(), kind, [&](std::span<const Vertex> group) {
       const int k = kind(group[0]);
@@ -138,13 +150,15 @@ class Gaze {
       if (scripts_.given_up(i)) continue;
       const Vertex& v = group[i];
       scripts_.params(d.shade.material, i, params_.data());
-      if (medium)
+      if (medium) {
         scatter(v, [&](float u, float a, float b) {
           return materials::Phase<float>(c.material, params_.data())
               .sample(Vec3f(v.point.view), u, a, b);
         });
-      else
+      } else {
+        if (world_.nested) immerse(c.material, v.outside, params_.data());
         surface(d, c, v, i);
+      }
     }
   }
 
@@ -217,6 +231,7 @@ class Gaze {
   const World& world_;
   Scripts scripts_;
   Flights flights_;
+  Surroundings surroundings_;
   int samples_;
   std::vector<Look> looks_;
   std::vector<Flight> rays_;

@@ -186,6 +186,11 @@ double Lights::irradiance(const Choice& c, const Receiver& at) {
   return c.radiance * std::min(kTwoPi, c.area * seen / d2) * cosine;
 }
 
+bool Lights::below_horizon(int choice, const Receiver& from) const {
+  const Choice& c = choices_[choice];
+  return c.object != kEnvironment && dot(c.centre - from.position, from.normal) < -c.radius;
+}
+
 double Lights::weigh(const Receiver& from, std::array<double, kLightsWeighed>& weights) const {
   double sum = 0;
   for (std::size_t i = 0; i < choices_.size(); ++i)

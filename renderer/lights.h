@@ -76,6 +76,8 @@ class Lights {
   /// once it has chosen.
   LightSample sample_one(int choice, Vec3d from, double u, double v) const;
   int count() const { return int(choices_.size()); }
+  /// Whether the light of that number lies where nothing of it matters to the receiver.
+  bool below_horizon(int choice, const Receiver& from) const;
 
   /// Density, per steradian and choice included, of drawing the direction from `from` that meets
   /// `object` at `at`. 0 for what is not an emitter.

@@ -98,7 +98,11 @@ void Scripts::run(const vm::Descriptor& d, EntryKind kind,
                   std::span<const ScriptPoint* const> points) {
   given_up_.clear();
   const vm::Entry& entry = entry_of(d, kind);
-  if (!entry.function || points.empty()) return;
+  if (points.empty()) return;
+  if (!entry.function) {
+    if (watching_) inspect(d, entry, 1);
+    return;
+  }
   const std::uint32_t variables = compiled_->of(&d).all_variables;
   fill(points, variables);
   machine_->run(*compiled_->executable(), *entry.function, *inputs_, int(points.size()));

@@ -18,11 +18,11 @@ struct Watched {
   const vm::ValueSource* value;
 };
 
-/// What an entry computes, number by number.
+/// What an entry says, number by number.
 std::vector<Watched> watched(const vm::Entry& e) {
   std::vector<Watched> all;
   const auto add = [&](vm::Output output, const vm::ValueSource& v) {
-    if (!v.constant) all.push_back({output, &v});
+    all.push_back({output, &v});
   };
   for (const vm::LayoutNode& node : e.material.nodes)
     for (const vm::ValueSource& v : node.params) add(vm::Output::Material, v);
@@ -46,7 +46,7 @@ void Scripts::inspect(const vm::Descriptor& d, const vm::Entry& entry, int lanes
       for (int k = 0; k < kWavelengths; ++k)
         if (!std::isfinite(s[k])) {
           not_finite_[&d] = {d.name, std::string(vm::output_name(d.form, w.output)),
-                             settings(d, lane, k)};
+                             w.value->constant ? "" : settings(d, lane, k)};
           return;
         }
     }

@@ -19,14 +19,29 @@ void keep(Roots& r, double t, double t_min, double t_max) {
   if (t > t_min && t < t_max) r.t[r.count++] = t;
 }
 
+/// Cross product where nothing cancels: of vectors that are far from parallel.
+Vec3d plain_cross(Vec3d a, Vec3d b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// `q` as multiples of the edges of a quad, of its part in the quad's plane.
+std::array<double, 2> along_edges(const Quad& s, Vec3d q) {
+  const double uu = dot(s.edge_u, s.edge_u), vv = dot(s.edge_v, s.edge_v);
+  const double uv = dot(s.edge_u, s.edge_v), qu = dot(q, s.edge_u), qv = dot(q, s.edge_v);
+  const double scale = 1 / (uu * vv - uv * uv);
+  return {(qu * vv - qv * uv) * scale, (qv * uu - qu * uv) * scale};
+}
+
 /// Tangents from the derivatives of the point by u and v (any length, on the geometry), made
 /// orthonormal with the normal; and the change of uv along them.
 void set_tangents(SurfacePoint& s, Vec3d dp_du, Vec3d dp_dv) {
-  const Frame<double> f = Frame<double>::with_tangent(s.normal, dp_du);
-  s.tangent = f.s;
-  s.bitangent = f.t;
+  const Vec3d along = dp_du - s.normal * dot(s.normal, dp_du);
+  const double l2 = dot(along, along);
+  s.tangent = l2 > 1e-12 ? along / std::sqrt(l2) : Frame<double>::around(s.normal).s;
+  s.bitangent = plain_cross(s.normal, s.tangent);
   // Least squares: the step that (du, dv) makes in the tangent plane.
-  const double a = dot(dp_du, f.s), b = dot(dp_dv, f.s), c = dot(dp_du, f.t), d = dot(dp_dv, f.t);
+  const double a = dot(dp_du, s.tangent), b = dot(dp_dv, s.tangent);
+  const double c = dot(dp_du, s.bitangent), d = dot(dp_dv, s.bitangent);
   const double det = a * d - b * c;
   if (det == 0) return;
   s.uv_tangent = {d / det, -c / det};
@@ -59,13 +74,12 @@ Roots intersect(const Sphere& s, Vec3d o, Vec3d d, double t_min, double t_max) {
 
 Roots intersect(const Quad& s, Vec3d o, Vec3d d, double t_min, double t_max) {
   Roots r;
-  const Vec3d n = cross(s.edge_u, s.edge_v);
+  const Vec3d n = plain_cross(s.edge_u, s.edge_v);
   const double dn = dot(d, n);
   if (dn == 0) return r;
   const double t = dot(s.corner - o, n) / dn;
-  const Vec3d p = o + d * t - s.corner;
-  const double nn = dot(n, n);
-  const double a = dot(cross(p, s.edge_v), n) / nn, b = dot(cross(s.edge_u, p), n) / nn;
+  if (!(t > t_min && t < t_max)) return r;
+  const auto [a, b] = along_edges(s, o + d * t - s.corner);
   if (a >= 0 && a <= 1 && b >= 0 && b <= 1) keep(r, t, t_min, t_max);
   return r;
 }
@@ -125,13 +139,10 @@ SurfacePoint surface_at(const Sphere& s, Vec3d p) {
 
 SurfacePoint surface_at(const Quad& s, Vec3d p) {
   SurfacePoint r;
-  const Vec3d n = cross(s.edge_u, s.edge_v);
-  const double nn = dot(n, n);
-  const Vec3d q = p - s.corner;
-  r.uv = {dot(cross(q, s.edge_v), n) / nn, dot(cross(s.edge_u, q), n) / nn};
+  r.uv = along_edges(s, p - s.corner);
   r.position = s.corner + s.edge_u * r.uv[0] + s.edge_v * r.uv[1];
   r.error = rounding_error(r.position);
-  set_flat(r, normalize(n));
+  set_flat(r, normalize(plain_cross(s.edge_u, s.edge_v)));
   set_tangents(r, s.edge_u, s.edge_v);
   return r;
 }

@@ -11,9 +11,13 @@ namespace mms::renderer {
 
 Frame<double> shading_frame(const SurfacePoint& s, const std::array<double, 2>& gradient,
                             Vec3d view) {
-  Vec3d n = s.normal - s.tangent * gradient[0] - s.bitangent * gradient[1];
-  const double l2 = dot(n, n);
-  n = std::isfinite(l2) && l2 > 0 ? n / std::sqrt(l2) : s.normal;
+  const bool bumpy = gradient[0] != 0 || gradient[1] != 0;
+  Vec3d n = s.normal;
+  if (bumpy) {
+    n = n - s.tangent * gradient[0] - s.bitangent * gradient[1];
+    const double l2 = dot(n, n);
+    n = std::isfinite(l2) && l2 > 0 ? n / std::sqrt(l2) : s.normal;
+  }
   const Vec3d ng = s.geometric_normal;
   const double side = dot(ng, view) < 0 ? -1 : 1;
   const double height = side * dot(ng, view);
@@ -24,7 +28,9 @@ Frame<double> shading_frame(const SurfacePoint& s, const std::array<double, 2>& 
     const double c = dot(m, view);
     return c * side > 0 && side * dot(ng, m * (2 * c) - view) >= least;
   };
-  if (!good(n)) {
+  if (const bool fit = good(n); fit && !bumpy) {
+    return {s.tangent, s.bitangent, n};
+  } else if (!fit) {
     double bad = 0, fine = 1;  // share of the geometric normal; 1 is always good
     for (int i = 0; i < 10; ++i) {
       const double mid = 0.5 * (bad + fine);

@@ -145,3 +145,41 @@ TEST_CASE("an EXR file holds every layer by name, and what is known of the pictu
   CHECK(wrong.error().hint.find("albedo") != std::string::npos);
   std::filesystem::remove(path);
 }
+
+TEST_CASE("the albedo of a surface that lies in something is of its index over that") {
+  // Glass of water's index in water, whose reflection is black: it lets all light through. Over
+  // vacuum it would lose what water reflects, 4 % over this picture.
+  HandProgram h;
+  const auto glass = [&](double reflected) {
+    return HandProgram::lobe(Lobe::Dielectric,
+                             {h.spectrum(1.33), h.real(0), h.spectrum(reflected), h.spectrum(1)});
+  };
+  h.surface("water", glass(1));
+  h.surface("glass", glass(0));
+  Result<SceneData> data = parse_scene(h.program, {}, R"({
+    "camera": {"position": [0, 0, 5], "target": [0, 0, 0], "fov": 20},
+    "objects": [{"sphere": {"radius": 20}, "surface": "water", "priority": 1},
+      {"sphere": {"radius": 1}, "surface": "glass", "priority": 2}]})",
+                                       "test", "");
+  REQUIRE_MESSAGE(bool(data), (data ? "" : data.error().what));
+  RenderOptions o;
+  o.width = o.height = 16;
+  o.samples = 16;
+  o.layers = true;
+  const Result<Rendered> r =
+      render(h.program, Scene(std::make_shared<const SceneData>(std::move(*data))), o);
+  REQUIRE(bool(r));
+  const Layers& l = *r->layers;
+  double sum = 0;
+  int n = 0;
+  for (std::size_t i = 0; i < l.albedo.size(); ++i) {
+    if (l.descriptor[i] == 0 || l.names[l.descriptor[i] - 1] != "glass") continue;
+    const Layers::Triple& a = l.albedo[i];
+    sum += 0.2126 * a[0] + 0.7152 * a[1] + 0.0722 * a[2];
+    ++n;
+  }
+  REQUIRE(n > 50);
+  // Edges of the disc share pixels with the water behind, whose albedo is 1 too. One cluster sees
+  // the luminance of white to 0.6 % (tests of clusters).
+  CHECK(sum / n == doctest::Approx(1).epsilon(0.005));
+}

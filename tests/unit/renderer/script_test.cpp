@@ -195,6 +195,27 @@ TEST_CASE("what is not finite is told: descriptor, output and place, once for ea
   CHECK(x >= 0);
 }
 
+TEST_CASE("a constant that is not a number and a gradient that is none are named too") {
+  const vm::Program p = compile(
+      "surface constant\n  bsdf = matte(sqrt(-1));\nend\n"
+      "surface bumped\n  bsdf = matte(0.5); gradient = [sqrt($uv.x - 2), 0];\nend\n");
+  const Result<Rendered> r = render(p, scene_of(p, R"({
+    "camera": {"position": [0, 0, 3], "target": [0, 0, 0], "fov": 40}, "environment": {"constant": 1},
+    "objects": [{"quad": {"corner": [-1, 0, 0], "u": [2, 0, 0], "v": [0, 1, 0]}, "surface": "constant"},
+      {"quad": {"corner": [-1, -1, 0], "u": [2, 0, 0], "v": [0, 1, 0]}, "surface": "bumped"}]})"),
+                                    options(8, 2));
+  REQUIRE_MESSAGE(bool(r), (r ? "" : r.error().what));
+  CHECK(r->report.dropped.count() > 0);
+  REQUIRE(r->report.not_finite.size() == 2);
+  const NotFinite &a = r->report.not_finite[0], &b = r->report.not_finite[1];
+  CHECK(a.descriptor == "constant");
+  CHECK(a.output == "bsdf");
+  CHECK(a.settings == "");  // it is so everywhere
+  CHECK(b.descriptor == "bumped");
+  CHECK(b.output == "gradient");
+  CHECK(b.settings.find("--set uv=[") != std::string::npos);
+}
+
 TEST_CASE("bump tilts the light: a wall with height a x, lit from one side by a far small disc") {
   // Lambert under a light along l: n . l with n = (-a, 0, 1) / sqrt(1 + a^2).
   const double a = 0.5;
