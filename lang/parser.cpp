@@ -59,7 +59,7 @@ Parser::Parser(SourcePtr source, Diagnostics& diagnostics, std::uint32_t begin, 
       lexer_(*graph_.source, diagnostics, begin, end) {
   diagnostics.keep(graph_.source);
   // As many as there can be in ordinary text: pages that are not needed are never touched.
-  graph_.exprs.reserve(graph_.source->text.size() / 5);
+  graph_.exprs.reserve((std::min<std::size_t>(end, graph_.source->text.size()) - begin) / 5);
   heights_.reserve(graph_.exprs.capacity());
 }
 
