@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/large_pages.h"
 #include "lang/parser_impl.h"
 #include "vm/limits.h"
 
@@ -59,7 +60,11 @@ Parser::Parser(SourcePtr source, Diagnostics& diagnostics, std::uint32_t begin, 
       lexer_(*graph_.source, diagnostics, begin, end) {
   diagnostics.keep(graph_.source);
   // As many as there can be in ordinary text: pages that are not needed are never touched.
-  graph_.exprs.reserve((std::min<std::size_t>(end, graph_.source->text.size()) - begin) / 5);
+  const std::size_t length = std::min<std::size_t>(end, graph_.source->text.size()) - begin;
+  graph_.exprs.reserve(length / 5);
+  prefer_large_pages(graph_.exprs.data(), graph_.exprs.capacity() * sizeof(Expr));
+  graph_.types.reserve(length / 16);
+  graph_.functions.reserve(length / 40);
   heights_.reserve(graph_.exprs.capacity());
 }
 
