@@ -150,28 +150,37 @@ struct Case {
   double us_per_line() const { return least(total) * 1e3 / lines; }
 };
 
-Case measure(std::string name, const std::function<std::string()>& text, int runs) {
-  Case c;
-  c.name = std::move(name);
-  c.lines = std::atoi(in_child([&] {
-                        const std::string script = text();
-                        return std::to_string(std::count(script.begin(), script.end(), '\n'));
-                      }).c_str());
-  for (int k = 0; k < runs; ++k) {
-    const Run run = run_in_child(text, false), parts = run_in_child(text, true);
-    c.total.push_back(run.total);
-    c.wall.push_back(run.wall);
-    c.peak = std::max(c.peak, run.peak);
-    for (std::size_t s = 0; s < parts.stages.size(); ++s) {
-      if (k == 0) c.stages.push_back({parts.stages[s].first, {}});
-      c.stages[s].second.push_back(parts.stages[s].second);
-    }
+/// Scripts of one rule, the shortest first, in turn: what disturbs one disturbs the others of its
+/// round.
+std::vector<Case> measure(const std::string& name,
+                          const std::vector<std::function<std::string()>>& texts, int runs) {
+  std::vector<Case> cases(texts.size());
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    cases[i].name = name;
+    cases[i].lines = std::atoi(in_child([&] {
+                                 const std::string script = texts[i]();
+                                 const auto n = std::count(script.begin(), script.end(), '\n');
+                                 return std::to_string(n);
+                               }).c_str());
   }
-  Series lexed;
+  std::vector<Series> lexed(texts.size());
   for (int k = 0; k < runs; ++k)
-    lexed.push_back(std::atof(in_child([&] { return fmt::format("{}", lex(text())); }).c_str()));
-  c.stages.insert(c.stages.begin(), {"lex", lexed});
-  return c;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      Case& c = cases[i];
+      const Run run = run_in_child(texts[i], false), parts = run_in_child(texts[i], true);
+      c.total.push_back(run.total);
+      c.wall.push_back(run.wall);
+      c.peak = std::max(c.peak, run.peak);
+      for (std::size_t s = 0; s < parts.stages.size(); ++s) {
+        if (k == 0) c.stages.push_back({parts.stages[s].first, {}});
+        c.stages[s].second.push_back(parts.stages[s].second);
+      }
+      lexed[i].push_back(
+          std::atof(in_child([&] { return fmt::format("{}", lex(texts[i]())); }).c_str()));
+    }
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    cases[i].stages.insert(cases[i].stages.begin(), {"lex", lexed[i]});
+  return cases;
 }
 
 /// Milliseconds of a whole process that runs `arguments`, its output thrown away.
@@ -207,11 +216,16 @@ std::string spread(const Series& s) {
                      number(quantile(s, 0.25)), number(quantile(s, 0.75)));
 }
 
-/// Time a line over that of the shorter script of the same kind.
+/// Time a line over that of the shortest script of the same rule, round by round.
 std::string growth(const std::vector<Case>& cases, const Case& c) {
-  for (const Case& other : cases)
-    if (other.name == c.name && other.lines < c.lines)
-      return fmt::format("{:.2f}", c.us_per_line() / other.us_per_line());
+  for (const Case& other : cases) {
+    if (other.name != c.name || other.lines >= c.lines) continue;
+    Series ratios;
+    for (std::size_t k = 0; k < c.total.size(); ++k)
+      ratios.push_back(c.total[k] / c.lines / (other.total[k] / other.lines));
+    return fmt::format("{:.2f} [{:.2f}, {:.2f}]", median(ratios), quantile(ratios, 0.25),
+                       quantile(ratios, 0.75));
+  }
   return "";
 }
 
@@ -272,9 +286,10 @@ constexpr const char* kMethod =
     R"(From source text to a verified, lowered program, the standard library included. Every run is the
 first of its process, so nothing is cached; only the executable's pages are in memory. Times are
 processor time of the one thread (other programs on the machine do not count), the least and the
-median of several runs; next to them the least by the clock on the wall. "To the shortest" is the time a line over that of the
-shortest script of the same kind: 1 where time is linear. Peaks are of the whole process, the
-source text and 4 MB of this program included.
+median of several runs; next to them the least by the clock on the wall. "To the shortest" is the
+time a line over that of the shortest script of the same kind, 1 where time is linear: scripts of a
+kind run in turn, and these are the median and quartiles over the rounds. Peaks are of the whole
+process, the source text and 4 MB of this program included.
 
 )";
 
@@ -293,25 +308,25 @@ std::string process_table(int runs) {
 }
 
 int run(const Options& options) {
-  const int few = options.quick ? 3 : 5, many = options.quick ? 7 : 31;
+  const int few = options.quick ? 3 : 9, many = options.quick ? 7 : 31;
   std::vector<Case> cases;
   const auto wanted = [&](std::string_view name) {
     return options.only.empty() || options.only == name;
   };
-  if (wanted("marble")) cases.push_back(measure("marble", marble, many));
+  using Texts = std::vector<std::function<std::string()>>;
+  const auto add = [&](std::string_view name, const Texts& texts, int runs) {
+    if (!wanted(name)) return;
+    for (Case& c : measure(std::string(name), texts, runs)) cases.push_back(std::move(c));
+  };
+  add("marble", {marble}, many);
   for (const LargeScript& s : large_scripts()) {
-    if (!wanted(s.name)) continue;
+    Texts texts;
     for (const int lines : {1000, 10000, 100000})
-      cases.push_back(measure(
-          std::string(s.name), [&] { return s.text(lines); },
-          lines == 1000                      ? many / 2
-          : lines == 100000 && options.quick ? 1
-                                             : few));
+      texts.push_back([&s, lines] { return s.text(lines); });
+    add(s.name, texts, few);
   }
-  if (wanted("descriptors"))
-    for (const int count : {1000, 10000})
-      cases.push_back(measure(
-          "descriptors", [&] { return descriptors_script(count); }, few));
+  add("descriptors",
+      {[] { return descriptors_script(1000); }, [] { return descriptors_script(10000); }}, few);
   std::string text = case_table(cases);
   std::vector<const Case*> staged;
   for (const Case& c : cases)
