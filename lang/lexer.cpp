@@ -2,10 +2,12 @@
 #include "lang/lexer.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "lang/utf8.h"
 
@@ -29,6 +31,30 @@ constexpr Spelled kKeywords[] = {
 #define KEYWORD(name, text) {Tok::Kw##name, text},
 #include "lang/tokens.def"
 };
+
+// A table by first character, in which the order of those that share it stays.
+template <std::size_t n>
+struct ByFirstCharacter {
+  std::array<Spelled, n> rows{};
+  std::array<std::uint8_t, 129> first{};  // of each ASCII character; the last is the end
+
+  constexpr explicit ByFirstCharacter(const Spelled (&table)[n]) {
+    std::size_t k = 0;
+    for (std::size_t c = 0; c < 128; ++c) {
+      first[c] = static_cast<std::uint8_t>(k);
+      for (const Spelled& s : table)
+        if (s.text[0] == static_cast<char>(c)) rows[k++] = s;
+    }
+    first[128] = static_cast<std::uint8_t>(k);
+  }
+  constexpr std::span<const Spelled> starting_with(char c) const {
+    const auto at = static_cast<unsigned char>(c);
+    if (at >= 128) return {};
+    return std::span(rows).subspan(first[at], first[at + 1] - first[at]);
+  }
+};
+constexpr ByFirstCharacter<std::size(kSymbols)> kSymbolsByFirst(kSymbols);
+constexpr ByFirstCharacter<std::size(kKeywords)> kKeywordsByFirst(kKeywords);
 
 // A literal is `number * multiply / divide`. Powers of ten divide, because 10^9 is a double and
 // 10^-9 is not: so `550nm` is the double nearest to 5.5e-7.
@@ -77,16 +103,13 @@ std::string_view spelling(Tok tok) {
 bool is_keyword(Tok tok) { return tok >= kKeywords[0].tok; }
 
 Tok keyword(std::string_view word) {
-  for (const Spelled& s : kKeywords)
+  for (const Spelled& s : kKeywordsByFirst.starting_with(word[0]))
     if (s.text == word) return s.tok;
   return Tok::Identifier;
 }
 
 Lexer::Lexer(const Source& source, Diagnostics& diagnostics, std::uint32_t begin, std::uint32_t end)
-    : source_(source),
-      text_(std::string_view(source.text).substr(0, end)),
-      diagnostics_(diagnostics),
-      pos_(begin) {
+    : source_(source), text_(source.text.substr(0, end)), diagnostics_(diagnostics), pos_(begin) {
   if (begin == 0 && text_.starts_with("\xEF\xBB\xBF")) pos_ = 3;  // a byte-order mark says nothing
 }
 
@@ -284,8 +307,8 @@ Token Lexer::string(char quote) {
 
 Token Lexer::symbol() {
   const std::size_t begin = pos_;
-  for (const Spelled& s : kSymbols) {
-    if (text_.substr(pos_, s.text.size()) != s.text) continue;
+  for (const Spelled& s : kSymbolsByFirst.starting_with(at())) {
+    if (!text_.substr(pos_).starts_with(s.text)) continue;
     pos_ += s.text.size();
     return token(s.tok, begin);
   }

@@ -45,7 +45,11 @@ class Parser {
   };
 
   // Tokens (parser.cpp).
-  const Token& peek(std::uint32_t ahead = 0);
+  const Token& peek(std::uint32_t ahead = 0) {
+    const std::size_t k = std::size_t{pos_} + ahead;
+    return k < tokens_.size() && !stopped_ ? tokens_[k] : fetch(k);
+  }
+  const Token& fetch(std::size_t k);
   bool at(Tok tok) { return peek().tok == tok; }
   bool at(Tok tok, Tok following) { return at(tok) && peek(1).tok == following; }
   Token take();

@@ -40,7 +40,7 @@ struct Comment {
 /// How a symbol or keyword is spelled; empty for the other tokens.
 std::string_view spelling(Tok tok);
 bool is_keyword(Tok tok);
-/// The keyword that is spelled so, or Identifier.
+/// The keyword that is spelled so, or Identifier. The word is not empty.
 Tok keyword(std::string_view word);
 
 }  // namespace mms::lang
