@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vm/input_use.h"
 
-#include <algorithm>
+#include <array>
 #include <bitset>
 
 namespace mms::vm {
@@ -11,16 +11,16 @@ constexpr std::size_t kBlocks = std::size_t(input_block(input_count()));
 using Blocks = std::bitset<kBlocks>;
 
 /// For each block of the inputs, how many a spectrum operand there stands for.
-std::vector<std::uint32_t> run_lengths() {
-  std::vector<std::uint32_t> runs(kBlocks, 1);
-  for (int i = 0; i < input_count(); ++i)
-    runs[std::size_t(input_block(i))] = std::uint32_t(block_count(input_type(i)));
+constexpr auto kRuns = [] {
+  std::array<std::uint32_t, kBlocks> runs{};
+  runs.fill(1);
+  for (int i = 0, block = 0; i < input_count(); block += block_count(input_type(i++)))
+    runs[std::size_t(block)] = std::uint32_t(block_count(input_type(i)));
   return runs;
-}
+}();
 
 /// What the instructions of one function read themselves.
 Blocks own_use(const LoweredCode& code, const LoweredFunction& f) {
-  static const std::vector<std::uint32_t> runs = run_lengths();
   Blocks used;
   const auto read = [&](Operand o, std::uint32_t count) {
     for (std::uint32_t k = 0; o.base() == Operand::Input && k < count; ++k) used.set(o.index() + k);
@@ -28,7 +28,7 @@ Blocks own_use(const LoweredCode& code, const LoweredFunction& f) {
   for (std::uint32_t pc = f.begin; pc < f.end; ++pc) {
     const LoweredInstruction& i = code.instructions[pc];
     for (const Operand o : {i.a, i.b, i.c, i.d, i.e})
-      if (o.base() == Operand::Input) read(o, o.splat() ? 1 : runs[o.index()]);
+      if (o.base() == Operand::Input) read(o, o.splat() ? 1 : kRuns[o.index()]);
     if (i.op != LoweredOp::Call && i.op != LoweredOp::CallBuiltin) continue;
     const CallSite& site = code.sites[i.target];
     for (std::uint32_t k = 0; k < site.args * site.repeats; ++k)
