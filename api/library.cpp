@@ -17,26 +17,7 @@
 namespace mms::api {
 
 const lang::Library& standard_library() {
-  static const std::vector<std::vector<lang::Library::Item>> items = [] {
-    std::vector<std::vector<lang::Library::Item>> all;
-    for (const stdlib::Module& m : stdlib::modules()) {
-      all.emplace_back();
-      for (const stdlib::Module::Item& i : m.items) all.back().push_back({i.name, i.begin, i.end});
-    }
-    return all;
-  }();
-  static const std::vector<lang::Library::Module> modules = [] {
-    std::vector<lang::Library::Module> all;
-    for (const stdlib::Module& m : stdlib::modules())
-      all.push_back({m.name, m.text, items[all.size()]});
-    return all;
-  }();
-  static const std::vector<lang::Library::Script> scripts = [] {
-    std::vector<lang::Library::Script> all;
-    for (const stdlib::Script& s : stdlib::scripts()) all.push_back({s.name, s.text});
-    return all;
-  }();
-  static const lang::Library library{stdlib::builtins(), modules, scripts};
+  static const lang::Library library{stdlib::builtins(), stdlib::modules(), stdlib::scripts()};
   return library;
 }
 

@@ -15,34 +15,12 @@
 #include "lang/ast.h"
 #include "lang/diagnostics.h"
 #include "vm/images.h"
+#include "vm/library.h"
 #include "vm/program.h"
 
 namespace mms::lang {
 
-/// What scripts may call: rows written in C++, and modules written in the language itself.
-struct Library {
-  std::span<const vm::Builtin> builtins;
-  /// A definition at the top level of a module: `name`, at [begin, end) of its text.
-  struct Item {
-    std::string_view name;
-    std::uint32_t begin, end;
-  };
-  struct Module {
-    std::string_view name;  ///< `noise`
-    std::string_view text;
-    std::span<const Item> items = {};  ///< all of them; none: they are looked for at every link
-  };
-  std::span<const Module> modules;
-  /// A script that an import finds by its name, with or without `.mms`, where no file has it.
-  struct Script {
-    std::string_view name;  ///< `openpbr`
-    std::string_view text;
-  };
-  std::span<const Script> scripts = {};
-
-  /// The script that `written` names, or null.
-  const Script* script(std::string_view written) const;
-};
+using vm::Library;
 
 enum class Level : std::uint8_t { O0, O1, O2 };
 

@@ -2,16 +2,18 @@
 #pragma once
 
 /// \file
-/// Every row written in this folder, for the instruction set that the including source is compiled
-/// for and named MMS_ISA after. Joined while compiling: a vector would bring weak functions into a
-/// source compiled for AVX2.
+/// Every row of the library, those of this folder for the instruction set that the including source
+/// is compiled for and named MMS_ISA after. Joined while compiling: a vector would bring weak
+/// functions into a source compiled for AVX2.
 
 #include <array>
 #include <cstddef>
 
+#include "materials/rows.h"
 #include "stdlib/cells_rows.h"
 #include "stdlib/complex_rows.h"
 #include "stdlib/elementary_rows.h"
+#include "stdlib/images_rows.h"
 #include "stdlib/noise_rows.h"
 #include "stdlib/physics_rows.h"
 #include "stdlib/seeded_rows.h"
@@ -30,7 +32,8 @@ constexpr auto joined(const vm::Builtin (&... parts)[N]) {
   return all;
 }
 
-inline constexpr auto kRows = joined(kElementaryRows, kComplexRows, kNoiseRows, kSeededRows,
-                                     kCellsRows, kWorleyRows, kPhysicsRows);
+inline constexpr auto kRows =
+    joined(kElementaryRows, kComplexRows, kNoiseRows, kSeededRows, kCellsRows, kWorleyRows,
+           kPhysicsRows, kImageRows, materials::kRows);
 
 }  // namespace mms::stdlib::MMS_ISA

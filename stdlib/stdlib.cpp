@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stdlib/stdlib.h"
 
-#include <vector>
-
-#include "materials/table.h"
-#include "stdlib/images_rows.h"
 #include "stdlib/isa.h"
 
 namespace mms::stdlib {
@@ -17,16 +13,6 @@ bool has_avx2() {
 #endif
 }
 
-std::span<const vm::Builtin> builtins() {
-  static const std::vector<vm::Builtin> rows = [] {
-    const auto ours = has_avx2() ? avx2_rows() : baseline_rows();
-    const auto materials = materials::rows();
-    std::vector<vm::Builtin> r(ours.begin(), ours.end());
-    r.insert(r.end(), std::begin(kImageRows), std::end(kImageRows));
-    r.insert(r.end(), materials.begin(), materials.end());
-    return r;
-  }();
-  return rows;
-}
+std::span<const vm::Builtin> builtins() { return has_avx2() ? avx2_rows() : baseline_rows(); }
 
 }  // namespace mms::stdlib

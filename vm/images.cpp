@@ -47,6 +47,22 @@ void look_up_run(const Image& image, ImageAsk ask, const double* const* in, doub
   image.look_up64(ask, in, out, lanes);
 }
 
+template <class R>
+void look_up(ImageAsk ask, const Image* const* images, int count, const void* const* in,
+             void* const* out, int lanes) {
+  const auto* handles = static_cast<const std::int32_t*>(in[0]);
+  for (int first = 0, end; first < lanes; first = end) {
+    const std::int32_t handle = handles[first];
+    for (end = first + 1; end < lanes && handles[end] == handle;) ++end;
+    const R* from[kImageArguments];
+    R* to[result_count(ImageAsk::ColourSlope)];
+    for (int k = 0; k < argument_count(ask); ++k)
+      from[k] = static_cast<const R*>(in[1 + k]) + first;
+    for (int k = 0; k < result_count(ask); ++k) to[k] = static_cast<R*>(out[k]) + first;
+    look_up_run(image_of(ask, images, count, handle), ask, from, to, end - first);
+  }
+}
+
 }  // namespace
 
 void Image::enclose(ImageAsk ask, const Interval*, Interval* out) const {
@@ -66,25 +82,28 @@ const Image& image_of(ImageAsk ask, const Image* const* images, int count, doubl
   return image && image->answers(ask) ? *image : *magenta();
 }
 
-template <class R>
-void look_up(ImageAsk ask, const Image* const* images, int count, const void* const* in,
-             void* const* out, int lanes) {
-  const auto* handles = static_cast<const std::int32_t*>(in[0]);
-  for (int first = 0, end; first < lanes; first = end) {
-    const std::int32_t handle = handles[first];
-    for (end = first + 1; end < lanes && handles[end] == handle;) ++end;
-    const R* from[kImageArguments];
-    R* to[result_count(ImageAsk::ColourSlope)];
-    for (int k = 0; k < argument_count(ask); ++k)
-      from[k] = static_cast<const R*>(in[1 + k]) + first;
-    for (int k = 0; k < result_count(ask); ++k) to[k] = static_cast<R*>(out[k]) + first;
-    look_up_run(image_of(ask, images, count, handle), ask, from, to, end - first);
-  }
+template <ImageAsk ask, class R>
+void image_kernel(const Image* const* images, int count, const void* const* in, void* const* out,
+                  int lanes) {
+  look_up<R>(ask, images, count, in, out, lanes);
+}
+template <ImageAsk ask, class R>
+void no_image_kernel(const void* const* in, void* const* out, int lanes) {
+  look_up<R>(ask, nullptr, 0, in, out, lanes);
 }
 
-template void look_up<float>(ImageAsk, const Image* const*, int, const void* const*, void* const*,
-                             int);
-template void look_up<double>(ImageAsk, const Image* const*, int, const void* const*, void* const*,
-                              int);
+#define KERNELS(ask, R)                                                                          \
+  template void image_kernel<ask, R>(const Image* const*, int, const void* const*, void* const*, \
+                                     int);                                                       \
+  template void no_image_kernel<ask, R>(const void* const*, void* const*, int);
+#define KERNELS_OF(ask) KERNELS(ImageAsk::ask, float) KERNELS(ImageAsk::ask, double)
+KERNELS_OF(Number)
+KERNELS_OF(NumberSlope)
+KERNELS_OF(Colour)
+KERNELS_OF(ColourSlope)
+KERNELS_OF(Curve)
+KERNELS_OF(CurveSlope)
+#undef KERNELS_OF
+#undef KERNELS
 
 }  // namespace mms::vm

@@ -135,21 +135,14 @@ struct ProgramImage {
 /// The picture with that number among `count`, if it is there and answers; else magenta.
 const Image& image_of(ImageAsk ask, const Image* const* images, int count, double number);
 
-/// Looks up lanes whose first argument is the place of a picture among `count` images; others are
-/// magenta.
-template <class R>
-void look_up(ImageAsk ask, const Image* const* images, int count, const void* const* in,
-             void* const* out, int lanes);
-
+/// Looks up lanes whose first argument is the place of a picture among `count` images; others, and
+/// all lanes of `no_image_kernel`, are magenta. Both are in images.cpp for every `ask`, R is float
+/// or double.
 template <ImageAsk ask, class R>
 void image_kernel(const Image* const* images, int count, const void* const* in, void* const* out,
-                  int lanes) {
-  look_up<R>(ask, images, count, in, out, lanes);
-}
+                  int lanes);
 template <ImageAsk ask, class R>
-void no_image_kernel(const void* const* in, void* const* out, int lanes) {
-  look_up<R>(ask, nullptr, 0, in, out, lanes);
-}
+void no_image_kernel(const void* const* in, void* const* out, int lanes);
 
 /// All kernels of `ask` in a row.
 template <ImageAsk ask>

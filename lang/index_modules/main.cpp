@@ -49,7 +49,7 @@ bool write(const std::filesystem::path& file, std::string& items, std::string& m
     scripts += fmt::format("    {{\"{}\", R\"mms({})mms\"}},\n", name, text);
     return true;
   }
-  items += fmt::format("constexpr Module::Item k_{}[] = {{\n", name);
+  items += fmt::format("constexpr Library::Item k_{}[] = {{\n", name);
   const std::vector<Definition> all = definitions(graph);
   for (std::size_t i = 0; i < all.size(); ++i)
     items += fmt::format("    {{\"{}\", {}, {}}},\n", all[i].name, all[i].begin,
@@ -74,10 +74,12 @@ int main(int count, char** arguments) {
   std::ofstream out(arguments[1]);
   out << "// Made from stdlib/*.mms by lang/index_modules.\n"
       << "#include \"stdlib/stdlib.h\"\n\nnamespace mms::stdlib {\nnamespace {\n\n"
-      << items << "\nconstexpr Module kModules[] = {\n"
-      << modules << "};\n\nconstexpr Script kScripts[] = {\n"
+      << "using vm::Library;\n\n"
+      << items << "\nconstexpr Library::Module kModules[] = {\n"
+      << modules << "};\n\nconstexpr Library::Script kScripts[] = {\n"
       << scripts << "};\n\n}  // namespace\n\n"
-      << "std::span<const Module> modules() { return kModules; }\n"
-      << "std::span<const Script> scripts() { return kScripts; }\n\n}  // namespace mms::stdlib\n";
+      << "std::span<const Library::Module> modules() { return kModules; }\n"
+      << "std::span<const Library::Script> scripts() { return kScripts; }\n\n}  // namespace "
+         "mms::stdlib\n";
   return out.flush() ? 0 : 1;
 }

@@ -98,9 +98,9 @@ std::set<std::string> noises_and_patterns() {
     const std::string_view call = row.signature.substr(0, row.signature.find('('));
     if (row.lobe < 0 && of(row.module)) names.emplace(call.substr(call.rfind(' ') + 1));
   }
-  for (const stdlib::Module& module : stdlib::modules()) {
+  for (const vm::Library::Module& module : stdlib::modules()) {
     if (!of(module.name)) continue;
-    for (const stdlib::Module::Item& item : module.items) names.emplace(item.name);
+    for (const vm::Library::Item& item : module.items) names.emplace(item.name);
   }
   return names;
 }

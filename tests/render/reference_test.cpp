@@ -66,9 +66,7 @@ const std::vector<Case>& cases() {
 }
 
 vm::Program compile(const Case& c) {
-  std::vector<lang::Library::Module> modules;
-  for (const stdlib::Module& m : stdlib::modules()) modules.push_back({m.name, m.text});
-  const lang::Library library{stdlib::builtins(), modules};
+  const lang::Library library{stdlib::builtins(), stdlib::modules()};
   lang::Diagnostics diagnostics;
   std::vector<lang::Graph> graphs;
   graphs.push_back(lang::parse(lang::make_source(c.name, c.script), diagnostics));

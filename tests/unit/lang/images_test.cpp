@@ -67,14 +67,7 @@ struct Formulas : vm::ImageSource {
   }
 };
 
-Library library() {
-  static const std::vector<Library::Module> modules = [] {
-    std::vector<Library::Module> all;
-    for (const stdlib::Module& m : stdlib::modules()) all.push_back({m.name, m.text, {}});
-    return all;
-  }();
-  return {stdlib::builtins(), modules};
-}
+Library library() { return {stdlib::builtins(), stdlib::modules()}; }
 
 struct Script {
   Diagnostics diagnostics;

@@ -24,9 +24,7 @@ namespace mms::renderer::test {
 
 /// A linked script.
 inline vm::Program compile(const std::string& text) {
-  std::vector<lang::Library::Module> modules;
-  for (const stdlib::Module& m : stdlib::modules()) modules.push_back({m.name, m.text});
-  const lang::Library library{stdlib::builtins(), modules};
+  const lang::Library library{stdlib::builtins(), stdlib::modules()};
   lang::Diagnostics diagnostics;
   const lang::SourcePtr source = lang::make_source("t.mms", text);
   std::vector<lang::Graph> graphs;

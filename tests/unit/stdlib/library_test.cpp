@@ -77,7 +77,7 @@ TEST_CASE("signatures, examples, derivative rules and modules have no syntax err
       rules = end == rules.npos ? std::string_view() : rules.substr(end + 1);
     }
   }
-  for (const Module& module : modules()) {
+  for (const vm::Library::Module& module : modules()) {
     INFO(module.name);
     CHECK(!errors(std::string(module.text), [](auto&&... a) { return lang::parse(a...); }));
   }
@@ -103,6 +103,7 @@ TEST_CASE("both instruction sets give the same bits") {
   for (std::size_t r = 0; r < a.size(); ++r) {
     INFO(a[r].signature);
     REQUIRE(a[r].signature == b[r].signature);
+    if (a[r].lobe >= 0) continue;  // a material: no kernel
     const std::size_t lanes = a[r].cost > 3000 ? 256 : 4096;
     const auto in32 = any_arguments<float>(a[r], lanes);
     CHECK(differing(run<float>(a[r], in32), run<float>(b[r], in32)) == 0);
