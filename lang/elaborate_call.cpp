@@ -140,7 +140,8 @@ Value Elaborator::call_library(std::string_view name, std::vector<Value> values,
 std::string Elaborator::describe(const Candidate& k) {
   if (k.row) return std::string(k.row->signature);
   const Span s = k.decl->function().header;
-  return s.source ? s.source->text.substr(s.begin, s.end - s.begin) : k.decl->function().name.text;
+  if (!s.source) return k.decl->function().name.text;
+  return std::string(s.source->text.substr(s.begin, s.end - s.begin));
 }
 
 Value Elaborator::call_candidates(const std::vector<std::vector<Candidate>>& levels,

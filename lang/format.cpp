@@ -250,7 +250,7 @@ std::vector<std::pair<Tok, std::string_view>> tokens_of(const Source& source) {
   Lexer lexer(source, ignored);
   std::vector<std::pair<Tok, std::string_view>> all;
   for (Token t = lexer.next(); t.tok != Tok::Eof; t = lexer.next())
-    all.emplace_back(t.tok, std::string_view(source.text).substr(t.begin, t.end - t.begin));
+    all.emplace_back(t.tok, source.text.substr(t.begin, t.end - t.begin));
   return all;
 }
 

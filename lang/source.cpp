@@ -10,6 +10,7 @@ namespace {
 
 std::vector<std::uint32_t> index_lines(std::string_view text) {
   std::vector<std::uint32_t> starts{0};
+  starts.reserve(text.size() / 32);  // as ordinary text has
   for (std::size_t i = text.find('\n'); i != std::string_view::npos; i = text.find('\n', i + 1))
     starts.push_back(static_cast<std::uint32_t>(i + 1));
   return starts;
@@ -17,10 +18,15 @@ std::vector<std::uint32_t> index_lines(std::string_view text) {
 
 }  // namespace
 
+SourcePtr borrow_source(std::string name, std::string_view text) {
+  return std::make_shared<Source>(Source{std::move(name), text, {}, index_lines(text)});
+}
+
 SourcePtr make_source(std::string name, std::string text) {
   auto source = std::make_shared<Source>();
   source->name = std::move(name);
-  source->text = std::move(text);
+  source->own = std::move(text);
+  source->text = source->own;
   source->line_starts = index_lines(source->text);
   return source;
 }
@@ -46,7 +52,7 @@ Position position_at(const Source& source, std::uint32_t offset) {
 std::string_view line_text(const Source& source, std::uint32_t line) {
   if (line == 0 || line > source.line_starts.size()) return {};
   const std::size_t begin = source.line_starts[line - 1];
-  std::string_view text = std::string_view(source.text).substr(begin);
+  std::string_view text = source.text.substr(begin);
   text = text.substr(0, text.find('\n'));
   if (text.ends_with('\r')) text.remove_suffix(1);
   return text;

@@ -15,12 +15,15 @@ namespace mms::lang {
 /// One file or string of source. Immutable once parsed; graphs and diagnostics share it.
 struct Source {
   std::string name;  ///< as the user wrote it; `<string>` for text without a file
-  std::string text;
+  std::string_view text;
+  std::string own;                         ///< what `text` is a view of, unless it was borrowed
   std::vector<std::uint32_t> line_starts;  ///< byte offset of each line, from `index_lines`
 };
 using SourcePtr = std::shared_ptr<const Source>;
 
 SourcePtr make_source(std::string name, std::string text);
+/// Of a text that outlives everything that is made of the source.
+SourcePtr borrow_source(std::string name, std::string_view text);
 
 /// 1-based line, and 1-based column in characters (UTF-8 sequences count once).
 struct Position {

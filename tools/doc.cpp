@@ -79,7 +79,7 @@ Exit print_script(const DocOptions& options) {
 Exit print_markdown(const DocOptions& options) {
   const Result<lang::SourcePtr> page = api::read_source(options.page);
   if (!page) return fail(Exit::File, page.error(), options);
-  fmt::print("{}", rendered((*page)->text, options));
+  fmt::print("{}", rendered(std::string((*page)->text), options));
   return Exit::Ok;
 }
 

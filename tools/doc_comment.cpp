@@ -27,7 +27,7 @@ std::vector<Example> examples_of(const lang::Source& source) {
   std::uint32_t last_line = 0;
   for (const lang::Comment& c : lexer.comments()) {
     const std::uint32_t line = lang::position_at(source, c.begin).line;
-    const std::string_view text = std::string_view(source.text).substr(c.begin, c.end - c.begin);
+    const std::string_view text = source.text.substr(c.begin, c.end - c.begin);
     const std::string_view doc =
         c.form == lang::Comment::Form::Doc ? trim(lang::doc_text(text)) : std::string_view();
     open = open && line == last_line + 1 && !doc.empty();

@@ -12,7 +12,7 @@ namespace mms::tools {
 namespace {
 
 std::string text_of(lang::Span span) {
-  return span.source->text.substr(span.begin, span.end - span.begin);
+  return std::string(span.source->text.substr(span.begin, span.end - span.begin));
 }
 
 /// The first line of what a span holds, without what ends it.

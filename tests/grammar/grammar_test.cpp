@@ -92,7 +92,7 @@ std::vector<std::string> tokens_of(const lang::SourcePtr& source) {
   lang::Diagnostics d;
   lang::Lexer lexer(*source, d);
   for (lang::Token t = lexer.next(); t.tok != lang::Tok::Eof; t = lexer.next())
-    all.push_back(source->text.substr(t.begin, t.end - t.begin));
+    all.emplace_back(source->text.substr(t.begin, t.end - t.begin));
   return d.all().empty() ? all : std::vector<std::string>{};
 }
 

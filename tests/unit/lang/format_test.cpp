@@ -42,8 +42,8 @@ std::vector<std::string> contents(const SourcePtr& source) {
   for (Token t = lexer.next(); t.tok != Tok::Eof; t = lexer.next())
     all.emplace_back(t.begin, source->text.substr(t.begin, t.end - t.begin));
   for (const Comment& c : lexer.comments())
-    all.emplace_back(c.begin,
-                     without_trailing_space(source->text.substr(c.begin, c.end - c.begin)));
+    all.emplace_back(c.begin, without_trailing_space(
+                                  std::string(source->text.substr(c.begin, c.end - c.begin))));
   std::sort(all.begin(), all.end());
   std::vector<std::string> texts;
   for (auto& [place, text] : all) texts.push_back(std::move(text));
