@@ -342,20 +342,29 @@ class Elaborator {
 
   // --- items and descriptors (elaborate_top.cpp) ---
   // --- the library (library.cpp) ---
-  struct LibraryName {  ///< one row, or one definition of a module
+  /// A definition of a module; `item` is null where nobody has listed them.
+  struct Listed {
+    std::string_view name;
+    const Library::Module* module;
+    const Library::Item* item;
+  };
+  /// One row, or one definition of a module.
+  struct LibraryName {
     std::string_view name;
     std::string_view module;
     const vm::Builtin* row = nullptr;
-    const Library::Module* text = nullptr;
-    const Library::Item* item = nullptr;
-    bool made = false;  ///< of the first one of a name: its binding has been made
+    const Listed* listed = nullptr;
   };
   void load_library();
-  void load_module(const Library::Module& m);
-  std::span<LibraryName> library_names(std::string_view name);
+  void list_module(const Library::Module& m);
+  void chain_library_names();
+  std::uint32_t library_size() const;
+  LibraryName library_name(std::uint32_t k) const;
+  std::uint32_t& library_chain(std::string_view name);
+  std::vector<LibraryName> library_names(std::string_view name);
   void make_library_name(std::string_view name);
   void make_module_name(const std::string& module, std::string_view name);
-  void define(const LibraryName& n);
+  void define(const Listed& n);
 
   // --- items and descriptors (elaborate_top.cpp) ---
   void add_graph(const Graph& graph, Scope* scope);
@@ -395,7 +404,9 @@ class Elaborator {
   };
   std::vector<DeclaredParam> declared_params_;
   std::map<std::string, Scope*, std::less<>> modules_;
-  std::vector<LibraryName> library_names_;  ///< sorted by name
+  std::vector<Listed> listed_;
+  std::vector<std::uint32_t> library_first_, library_next_;  ///< chains of names, by their hash
+  std::set<std::string, std::less<>> made_library_names_;
   std::map<const Library::Module*, SourcePtr> module_sources_;
   std::map<const vm::Builtin*, std::unique_ptr<Signature>> signatures_;
   std::map<std::string, Instance> instances_;

@@ -17,6 +17,9 @@ constexpr std::size_t kTokens = std::size_t{4} * vm::limits::kNodes;
 // How far ahead a `;` looks for the `]` that makes it a separator of rows.
 constexpr std::uint32_t kRowLookAhead = 256;
 
+// Bytes from which on room for what a text may need is worth more than the pages it takes.
+constexpr std::size_t kLongText = 1 << 16;
+
 bool ends_statement(Tok tok) {
   switch (tok) {
     case Tok::Eof:
@@ -59,26 +62,32 @@ Parser::Parser(SourcePtr source, Diagnostics& diagnostics, std::uint32_t begin, 
       diagnostics_(diagnostics),
       lexer_(*graph_.source, diagnostics, begin, end) {
   diagnostics.keep(graph_.source);
-  // As many as there can be in ordinary text: pages that are not needed are never touched.
+  // A long text gets room for as many as there can be in ordinary text: pages that are not needed
+  // are never touched. A short one, for as many as there mostly are: there each page counts.
   const std::size_t length = std::min<std::size_t>(end, graph_.source->text.size()) - begin;
-  graph_.exprs.reserve(length / 5);
+  const auto reserve = [&](auto& list, std::size_t most, std::size_t mostly) {
+    list.reserve(length / (length < kLongText ? mostly : most));
+  };
+  reserve(tokens_, 8, 4);
+  reserve(graph_.exprs, 5, 13);
+  reserve(graph_.types, 16, 78);
+  reserve(graph_.functions, 40, 300);
   prefer_large_pages(graph_.exprs.data(), graph_.exprs.capacity() * sizeof(Expr));
-  graph_.types.reserve(length / 16);
-  graph_.functions.reserve(length / 40);
   heights_.reserve(graph_.exprs.capacity());
 }
 
-const Token& Parser::peek(std::uint32_t ahead) {
+// Token k, which has perhaps not been read yet.
+const Token& Parser::fetch(std::size_t k) {
   static constexpr Token kEof{};
   if (stopped_) return kEof;
-  while (tokens_.size() <= std::size_t{pos_} + ahead) {
+  while (tokens_.size() <= k) {
     if (tokens_.size() == kTokens) {
       too_long(span(tokens_.back()), kTokens, "tokens");
       return kEof;
     }
     tokens_.push_back(lexer_.next());
   }
-  return tokens_[pos_ + ahead];
+  return tokens_[k];
 }
 
 Token Parser::take() {
@@ -104,13 +113,13 @@ bool Parser::expect(Tok tok) {
 }
 
 std::string_view Parser::text(const Token& t) const {
-  return std::string_view(graph_.source->text).substr(t.begin, t.end - t.begin);
+  return graph_.source->text.substr(t.begin, t.end - t.begin);
 }
 
 bool Parser::on_new_line() {
   const std::uint32_t end = previous_.end, next = peek().begin;
   if (at(Tok::Eof)) return true;
-  const std::string_view between = std::string_view(graph_.source->text).substr(end, next - end);
+  const std::string_view between = graph_.source->text.substr(end, next - end);
   return between.find('\n') != std::string_view::npos;
 }
 
