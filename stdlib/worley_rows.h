@@ -66,8 +66,9 @@ constexpr vm::Builtin worley_edge_row(const vm::Builtin& row) {
               "in each "                                                                           \
               "unit cell, in its middle for jitter 0 and anywhere in it for 1. Distances are "     \
               "Minkowski's of that exponent: 1 is Manhattan, "                                     \
-              "2 Euclid, above 64 Chebyshev; less than 1 counts as 1. It repeats after `period` "  \
-              "as `perlin` does.",                                                                 \
+              "2 Euclid, above 64 Chebyshev; less than 1 counts as 1. By Manhattan's several "     \
+              "points may be equally far over whole regions: rounding chooses then. It repeats "   \
+              "after `period` as `perlin` does.",                                                  \
        .example = "worley_ways" MMS_PLACE##N ", 2.0)",                                             \
        .derivative = MMS_THREE(MMS_ONE##N) "; 0; " MMS_THREE(                                      \
            MMS_NONE##N) "; "                                                                       \

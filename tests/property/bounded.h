@@ -152,6 +152,10 @@ class LibraryCall {
       sure = false;
     const std::vector<double> here = evaluate(at);
     std::vector<double> moved(here.size(), 0.0);
+    // Exponents of Minkowski's distances below 1 count as 1. By that one several points are equally
+    // far over whole regions, where rounding chooses, and only a larger exponent shows it.
+    const bool minkowski = row_.signature.ends_with(", exponent)");
+    if (minkowski) at.back() = std::max(1.0, at.back());
     for (std::size_t k = 0; sure && k < args.size(); ++k) {
       const double e = params_[k] == vm::SlotType::Real ? error(args[k]) : 0.0;
       if (e == 0 || std::isnan(at[k])) continue;
