@@ -29,8 +29,7 @@ struct Ward {
 
   Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode) const {
     if (!same_side(wo, wi)) return {};
-    const Vec3<R> o = to_upper(wo, wo), h = half_vector(o, to_upper(wi, wo));
-    const R c = dot(o, h);
+    const auto [h, c] = HalfVector<R>(to_upper(wo, wo), to_upper(wi, wo));
     if (!(h.z > 0) || !(c > kLeastCosine<R>)) return {};
     const R d = facets.density(h);
     return {colour * (d / (4 * c * c)), Spectrum<R>(d * h.z / (4 * c))};
@@ -84,14 +83,14 @@ struct AshikhminShirley {
 
   Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode) const {
     if (!same_side(wo, wi)) return {};
-    const Vec3<R> o = to_upper(wo, wo), i = to_upper(wi, wo), h = half_vector(o, i);
-    const R c = dot(o, h);
+    const Vec3<R> o = to_upper(wo, wo), i = to_upper(wi, wo);
+    const auto [h, c] = HalfVector<R>(o, i);
     if (!(h.z > 0) || !(c > Ward<R>::template kLeastCosine<R>)) return {};
     const R s2 = h.x * h.x + h.y * h.y;
     const R e = s2 > 0 ? (nu * h.x * h.x + nv * h.y * h.y) / s2 : R(0);
     const R log = s2 < R(0.5) ? std::log1p(-s2) / 2 : std::log(h.z);  // of h.z
     const R lobe = std::sqrt((nu + 1) * (nv + 1)) * std::exp(e * log) / (8 * kPi<R> * c);
-    return {fresnel(std::min(c, R(1))) * (lobe / std::max(o.z, i.z)), Spectrum<R>(lobe)};
+    return {fresnel(c) * (lobe / std::max(o.z, i.z)), Spectrum<R>(lobe)};
   }
 
   bool sample(Vec3<R> wo, R, R u1, R u2, Vec3<R>& wi) const {

@@ -145,12 +145,12 @@ struct Dielectric {
   Lobes<R> evaluate_reflection(Vec3<R> wo, Vec3<R> wi) const {
     Lobes<R> out;
     const Vec3<R> o = to_upper(wo, wo), i = to_upper(wi, wo);
-    const Vec3<R> h = half_vector(o, i);
+    const HalfVector<R> half(o, i);
+    const Vec3<R> h = half.h;
     if (!(h.z > 0)) return out;
     const R f = ggx.density(h) * materials::masking(ggx, o, i), pdf = visible(ggx, o, h) / 4;
-    const R cos_h = limited(dot(o, h), R(0), R(1));
     for (int j = 0; j < kWavelengths; ++j) {
-      const FresnelSplit<R> s = fresnel_split(cos_h, rough_eta(j, wo));
+      const FresnelSplit<R> s = fresnel_split(half.cosine, rough_eta(j, wo));
       out.f[j] = s.reflected * reflected[j] * f;
       out.pdf[j] = choose(j, s).reflect * pdf;
     }

@@ -10,15 +10,22 @@
 
 namespace mms::materials {
 
-/// Half vector of two directions of the same side; zero where they cancel (grazing, wi = -wo).
+/// Half vector of two directions of one side; zero where they cancel (grazing, wi = -wo).
 template <class R>
-inline Vec3<R> half_vector(Vec3<R> a, Vec3<R> b) {
-  const Vec3<R> h = a + b;
-  const R l2 = dot(h, h);
-  const R cut = 16 * std::numeric_limits<R>::epsilon();
-  if (!(l2 > cut * cut)) return {0, 0, 0};
-  return h / std::sqrt(l2);
-}
+struct HalfVector {
+  Vec3<R> h;
+  R cosine = 0;  ///< between it and either direction
+
+  /// The cosine is half the length of the sum: where directions nearly cancel, the product of
+  /// either with `h` would be rounding alone.
+  HalfVector(Vec3<R> a, Vec3<R> b) : h(a + b) {
+    const R l2 = dot(h, h);
+    const R cut = 16 * std::numeric_limits<R>::epsilon();
+    const R length = l2 > cut * cut ? std::sqrt(l2) : R(0);
+    h = length > 0 ? h / length : Vec3<R>{0, 0, 0};
+    cosine = std::min(length / 2, R(1));
+  }
+};
 
 /// Reflection by facets, alike for every wavelength but for Fresnel's factor.
 template <class R, template <class> class Distribution>
@@ -52,11 +59,12 @@ struct RoughReflection {
     v.mean = std::max(l.mean(), R(0.02) * mean_unit(facets.ax * facets.ay));
     v.multiple = lo * l.at(wi) / (kPi<R> * v.mean);
     v.pdf = lo * bounces().pdf(wi.z);
-    const Vec3<R> h = half_vector(wo, wi);
+    const HalfVector<R> half(wo, wi);
+    const Vec3<R> h = half.h;
     if (!(h.z > 0)) return v;
     v.single = facets.density(h) * masking(facets, wo, wi);
     v.pdf += (1 - lo) * visible(facets, wo, h) / 4;
-    v.cos_h = limited(dot(wo, h), R(0), R(1));
+    v.cos_h = half.cosine;
     return v;
   }
 
