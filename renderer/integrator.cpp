@@ -83,8 +83,8 @@ struct Integrator::Scatterer {
     if (!consistent(p.surface, frame, wi)) return {wi, {}, {}};
     const Bsdf<float> bsdf(layout, params);
     const Vec3f wo(frame.to_local(p.view)), local(frame.to_local(wi));
-    return {wi, bsdf.eval(wo, local, Mode::Radiance) * std::abs(local.z),
-            bsdf.pdf(wo, local, Mode::Radiance)};
+    const auto lobes = bsdf.evaluate(wo, local, Mode::Radiance);
+    return {wi, lobes.f * std::abs(local.z), lobes.pdf};
   }
 
   std::optional<Sampled> sample(const ScriptPoint& p, float u_lobe, float u, float v) const {
