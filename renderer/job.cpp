@@ -15,8 +15,9 @@ namespace {
 /// Between two estimates of the error for those who watch: each takes some milliseconds.
 constexpr double kSecondsOfError = 1;
 
-/// The error is asked for the first time after as many samples: two differences are known then.
-constexpr std::uint32_t kFirstAsked = 16;
+/// The error is asked for the first time after as many samples: one difference is known then, and
+/// it is taken as of independent samples, which errs upwards.
+constexpr std::uint32_t kFirstAsked = 8;
 
 /// Samples that were dropped of which it is found out why.
 constexpr std::size_t kExplained = 64;
