@@ -268,9 +268,16 @@ Lobes<R> Bsdf<R>::evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choi
         if (detail::is_specular(model)) return 0;
         const R share = detail::lambert_share<R>(model);
         const Lobes<R> l = model.evaluate(wo, wi, mode);
+        total.pdf += l.pdf * choice.probability.of[i];
+        if constexpr (requires { model.coated(wo); }) {
+          if (weights.of[i].coat) {
+            total.f +=
+                l.f * coated_weight(weights.of[i], model.coated(wo), model.coated(wi), wo.z, wi.z);
+            return 0;
+          }
+        }
         if (share > 0) total.f += l.f * weights.of[i].lambert * share;
         if (share < 1) total.f += l.f * weights.of[i].other * (1 - share);
-        total.pdf += l.pdf * choice.probability.of[i];
       }
       return 0;
     });

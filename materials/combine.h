@@ -14,6 +14,12 @@
 /// layer twice, along the refracted directions: exp(-absorption thickness (1 / c + 1 / c')) on
 /// `base`, where c^2 = 1 - (1 - |wo.z|^2) / ior^2, c' alike for wi.
 ///
+/// Where the coat lets 1 - F through and the index is above 1, facets and `glossy` right below it
+/// get
+///   base: g(wo) g(wi)           (materials/coated.h), whose mean over the lobe is 1 - F, within
+///   1e-3;
+///                               stretched facets in part only
+///
 /// All are symmetric. As min(F, F') <= F and 1 - max(F, F') <= 1 - F, a lossless base under a
 /// lossless coat never exceeds albedo 1, and a specular coat over a Lambert base is 1 exactly; but
 /// near grazing a broad coat loses much: min(F, F') is small where F' is.
@@ -42,6 +48,7 @@
 #include <array>
 #include <optional>
 
+#include "materials/coated.h"
 #include "materials/facets.h"
 #include "materials/fresnel.h"
 #include "materials/layout.h"
@@ -54,6 +61,8 @@ namespace mms::materials {
 template <class R>
 struct NodeWeight {
   Spectrum<R> other{R(1)}, lambert{R(1)};
+  /// The indices of the coat right above, which is one that lets through 1 - F; null: none.
+  const R* coat = nullptr;
 };
 
 /// One entry for each node of a layout; entries beyond it are not initialised.
@@ -135,6 +144,8 @@ inline void weigh_fresnel_mix(const R* ior, const CoatLobe<R>& lobe, R cos_o, R 
     base.other[j] = w.other[j] * f.base;
     base.lambert[j] = w.other[j] * f.lambert;
   });
+  coat.coat = nullptr;
+  base.coat = lobe.table ? nullptr : ior;
 }
 
 /// Roughly how a coat splits what comes along `cos_o`.
@@ -214,10 +225,11 @@ inline void weigh(const Layout& layout, const R* params, R cos_o, R cos_i, Mode 
           w[b].other[j] = w[i].other[j] * t;
           w[b].lambert[j] = w[i].lambert[j] * t;
         }
+        w[a].coat = w[b].coat = w[i].coat;
         break;
       case Lobe::Scale: {
         const Spectrum<R> t = weight_at(p);
-        w[a] = {w[i].other * t, w[i].lambert * t};
+        w[a] = {w[i].other * t, w[i].lambert * t, w[i].coat};
         break;
       }
       case Lobe::Add:
@@ -225,10 +237,11 @@ inline void weigh(const Layout& layout, const R* params, R cos_o, R cos_i, Mode 
         break;
       case Lobe::Layer: {
         const detail::LayerLeaves<R> left(layout, params, node);
-        w[a] = {w[i].other * left.weight, w[i].lambert * left.weight};
+        w[a] = {w[i].other * left.weight, w[i].lambert * left.weight, w[i].coat};
         w[b] = {w[i].other * left.along(mode == Mode::Radiance ? cos_o : cos_i),
                 left.fibres ? w[i].other * left.lambert(cos_o, cos_i)
-                            : w[i].lambert * (1 - left.weight)};
+                            : w[i].lambert * (1 - left.weight),
+                left.fibres ? nullptr : w[i].coat};
         break;
       }
       case Lobe::FresnelMix:
@@ -247,6 +260,30 @@ inline void weigh(const Layout& layout, const R* params, R cos_o, R cos_i, Mode 
         break;  // a lobe
     }
   }
+}
+
+/// The factor for a lobe right below a coat, from those of its node; `o` and `i` are the lobe along
+/// the two directions.
+template <class R>
+inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const CoatedLobe<R>& o,
+                                 const CoatedLobe<R>& i, R cos_o, R cos_i) {
+  cos_o = std::min(std::abs(cos_o), R(1));
+  cos_i = std::min(std::abs(cos_i), R(1));
+  Spectrum<R> f;
+  R scale = 0;
+  detail::for_each_index(w.coat, [&](int j, bool repeated) {
+    const R eta = relative_eta(w.coat[j], Vec3<R>{0, 0, 1});
+    if (!repeated && eta > 1) {
+      const auto squared = [&](const CoatedLobe<R>& lobe, R c) {
+        return lobe.mean_squared(eta, c, fresnel_split(c, eta).transmitted);
+      };
+      scale = (1 - fresnel_dielectric_diffuse(eta)) /
+              (std::sqrt(squared(o, cos_o)) * std::sqrt(squared(i, cos_i)));
+    }
+    const R known = eta > 1 ? o.share : R(0);
+    f[j] = known * scale * w.lambert[j] + (1 - known) * w.other[j];
+  });
+  return f;
 }
 
 /// Factors for choosing a lobe before wi is known: `fresnel_mix` takes F and 1 - F at wo.

@@ -60,6 +60,7 @@ struct RoughMetal {
   explicit RoughMetal(const R* p) : reflectance{p}, rough(p + Fresnel<R>::kNumbers) {}
 
   bool specular() const { return rough.specular(); }
+  CoatedLobe<R> coated(Vec3<R> w) const { return rough.coated(w); }
 
   Spectrum<R> estimate(Vec3<R> wo) const {
     return reflectance(limited(std::abs(wo.z), R(0), R(1)));

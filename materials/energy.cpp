@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materials/energy.h"
 
+#include "materials/coated.h"
+
 namespace mms::materials {
 namespace {
 
-#include "energy_tables.inc"  // made by the build: materials/tables/make.cpp
+#include "coated_tables.inc"  // made by the build: materials/tables/coated.cpp
+#include "energy_tables.inc"  // made by the build: materials/tables/energy.cpp
 
 }  // namespace
 
@@ -13,6 +16,9 @@ const FacetTables kBeckmannTables{kBeckmannLoss, kBeckmannMean, kBeckmannStretch
                                   kBeckmannStretchedMean};
 const float* const kGlossyCoat = kGlossyCoatTable;
 const float* const kGgxCoat = kGgxCoatTable;
+const float* const kGgxCoated = kGgxCoatedTable;
+const float* const kBeckmannCoated = kBeckmannCoatedTable;
+const float* const kGlossyCoated = kGlossyCoatedTable;
 const InterfaceTables kGgxInterface{{kGgxDense, kGgxRare}, {kGgxDenseMean, kGgxRareMean}};
 
 }  // namespace mms::materials

@@ -11,7 +11,9 @@
 ///   shadow(w)             |w.z| Lambda(w): finite at grazing angles
 ///   sample_visible(wo, u1, u2)  a normal that `wo` (z > 0) sees
 ///   tables()              what multiple scattering needs (materials/energy.h)
+///   coated()              what a coat needs (materials/coated.h)
 
+#include "materials/coated.h"
 #include "materials/energy.h"
 #include "materials/lobe.h"
 
@@ -73,6 +75,7 @@ struct Ggx : Alpha<R> {
   }
 
   static const FacetTables& tables() { return kGgxTables; }
+  static const float* coated() { return kGgxCoated; }
 };
 
 /// x with erf(x) = `y` in (-1, 1): a start after Winitzki (2008), then Newton's method.
@@ -120,6 +123,7 @@ struct Beckmann : Alpha<R> {
   }
 
   static const FacetTables& tables() { return kBeckmannTables; }
+  static const float* coated() { return kBeckmannCoated; }
 
  private:
   /// The slope along a direction of cosine c and sine s: the density over x < c / s is proportional

@@ -17,6 +17,7 @@
 /// that light came from and the one in which it went on. Near grazing the lobe moves away from the
 /// horizon: that is the model.
 
+#include "materials/coated.h"
 #include "materials/specular.h"
 
 namespace mms::materials {
@@ -142,6 +143,10 @@ struct GlossyLobe {
   bool specular() const {
     if constexpr (kAngle == GlossyAngle::Backward) return false;
     return gloss > R(kMaxGloss) && (!kProduct || longitude > R(kMaxLongitude));
+  }
+  /// How a coat sees it: the longitude is of no matter to that.
+  CoatedLobe<R> coated(Vec3<R>) const requires(kAngle != GlossyAngle::Through) {
+    return CoatedLobe<R>::glossy(gloss);
   }
   Spectrum<R> estimate(Vec3<R>) const { return colour; }
   SpecularTerms<R> terms(Vec3<R>) const {

@@ -38,6 +38,13 @@ struct RoughReflection {
   bool specular() const { return facets.specular(); }
   FacetLoss<R> loss() const { return {&facets.tables(), facets.ax, facets.ay}; }
   BounceSampling<R> bounces() const { return {facets.ax * facets.ay}; }
+  /// Along `w`; stretched facets are in part taken for round ones that are as wide there.
+  CoatedLobe<R> coated(Vec3<R> w) const {
+    const R x = facets.ax, y = facets.ay, t = facets.tangent(w);
+    if (x == y) return CoatedLobe<R>::facets(facets.coated(), x);
+    return CoatedLobe<R>::facets(facets.coated(), std::sqrt(t * t + w.z * w.z * x * y),
+                                 1 / (1 + 8 * std::abs(std::log(x / y))));
+  }
 
   /// What happens between two directions of one side.
   struct Value {
@@ -100,6 +107,7 @@ struct FacetMirror {
   explicit FacetMirror(const R* p) : colour(weight_at(p)), rough(p + kWavelengths) {}
 
   bool specular() const { return rough.specular(); }
+  CoatedLobe<R> coated(Vec3<R> w) const { return rough.coated(w); }
   Spectrum<R> estimate(Vec3<R>) const { return colour; }
   SpecularTerms<R> terms(Vec3<R>) const { return mirror_terms(colour); }
 

@@ -235,7 +235,7 @@ std::vector<float> write_facets(std::FILE* to, const std::string& name) {
 int main(int argc, char** argv) {
   using namespace mms::materials;
   if (argc != 2) {
-    std::fprintf(stderr, "usage: mms_tables FILE\n");
+    std::fprintf(stderr, "usage: mms_energy_tables FILE\n");
     return 2;
   }
   std::FILE* to = std::fopen(argv[1], "w");

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// Computes the tables of materials/coated.h and writes them as C++ to the named file: run by the
+// build, in some seconds.
+#include <cstdio>
+#include <vector>
+
+#include "materials/facets.h"
+#include "materials/fresnel.h"
+#include "materials/glossy.h"
+#include "materials/tables/grid.h"
+
+namespace mms::materials::tables {
+namespace {
+
+using Values = std::vector<double>;  ///< over directions
+
+constexpr int kNodes = 200;
+
+/// |Cosine| at a place on the axis of directions.
+double cosine_at(double place) { return std::sin(place * place * place * place * kPi<double> / 2); }
+
+/// Directions in the middles of as many steps along the axis of the tables.
+struct Directions {
+  Values z = Values(kNodes), weight = Values(kNodes);  ///< of int 2 z dz
+
+  Directions() {
+    for (int k = 0; k < kNodes; ++k) {
+      z[k] = cosine_at((k + 0.5) / kNodes);
+      const double a = cosine_at(double(k) / kNodes), b = cosine_at((k + 1.0) / kNodes);
+      weight[k] = b * b - a * a;
+    }
+  }
+};
+const Directions& directions() {
+  static const Directions d;
+  return d;
+}
+
+/// Of two nodes, for linear interpolation.
+struct Place {
+  int first;
+  double second;  ///< the weight of the next
+
+  explicit Place(double place) {
+    const double x = std::clamp(place * kNodes - 0.5, 0.0, kNodes - 1 - 1e-9);
+    first = int(x);
+    second = x - first;
+  }
+  static Place of(double z) { return Place(axes::coat_direction(z)); }
+};
+
+/// The lobe as a matrix: row o holds what light along o is spread to; rows sum to 1.
+struct Spread {
+  std::vector<Values> rows = std::vector<Values>(kNodes, Values(kNodes));
+
+  void add(int row, double z, double share) {
+    const Place p = Place::of(z);
+    rows[row][p.first] += share * (1 - p.second);
+    rows[row][p.first + 1] += share * p.second;
+  }
+
+  Values mean(const Values& of) const {
+    Values m(kNodes);
+    for (int o = 0; o < kNodes; ++o)
+      for (int i = 0; i < kNodes; ++i) m[o] += rows[o][i] * of[i];
+    return m;
+  }
+};
+
+/// Numbers in (0, 1) and weights that crowd at both ends.
+template <class F>
+void crowded(int n, const F& f) {
+  for (int k = 0; k < n; ++k) {
+    const double u = (k + 0.5) / n;
+    f(u * u * (3 - 2 * u), 6 * u * (1 - u) / n);
+  }
+}
+
+double slope(const Ggx<double>&, double u) { return std::sqrt(u / (1 - u)); }
+double slope(const Beckmann<double>&, double u) { return std::sqrt(-std::log1p(-u)); }
+
+/// One row of round facets, over slopes as polar coordinates: of a facet that `wo` sees a share of
+/// the area, masked; then what single bounces lose, as materials/energy.h gives it back.
+template <class Facets>
+void add_facets(const Facets& facets, int row, Spread& lobe) {
+  const double z = directions().z[row], s = std::sqrt(1 - z * z), alpha = facets.ax;
+  const double shadow = facets.shadow({s, 0, z});
+  double seen = 0;
+  std::vector<std::pair<double, double>> single;  // cosine and share
+  constexpr int kSlopes = 96, kTurn = 64;
+  crowded(kSlopes, [&](double u, double weight) {
+    const double r = alpha * slope(facets, u);
+    for (int k = 0; k < kTurn; ++k) {
+      const double phi = kPi<double> * (k + 0.5) / kTurn;
+      const double area = (z + s * r * std::cos(phi)) * weight;  // over the surface
+      if (!(area > 0)) continue;
+      seen += area;
+      const Vec3d h = normalize(Vec3d{r * std::cos(phi), r * std::sin(phi), 1});
+      const Vec3d wi = h * (2 * (s * h.x + z * h.z)) - Vec3d{s, 0, z};
+      if (!(wi.z > 0)) continue;
+      const double c = std::min(wi.z, 1.0);
+      const double masked = (z + shadow) * c / (z * c + shadow * c + z * facets.shadow(wi));
+      single.emplace_back(c, area * masked);
+    }
+  });
+  for (const auto& [c, share] : single) lobe.add(row, c, share / seen);
+}
+
+void give_back(Spread& lobe) {
+  const Values& weight = directions().weight;
+  Values lost(kNodes);
+  double mean = 0;
+  for (int o = 0; o < kNodes; ++o) {
+    double sum = 0;
+    for (const double x : lobe.rows[o]) sum += x;
+    lost[o] = std::max(0.0, 1 - sum);
+    mean += lost[o] * weight[o];
+  }
+  for (int o = 0; o < kNodes; ++o) {
+    double sum = 0;
+    for (int i = 0; i < kNodes; ++i) {
+      if (mean > 0) lobe.rows[o][i] += lost[o] * lost[i] * weight[i] / mean;
+      sum += lobe.rows[o][i];
+    }
+    for (double& x : lobe.rows[o]) x /= sum;
+  }
+}
+
+template <template <class> class Distribution>
+Spread facet_lobe(double alpha) {
+  Spread lobe;
+  for (int o = 0; o < kNodes; ++o) add_facets(Distribution<double>{{alpha, alpha}}, o, lobe);
+  give_back(lobe);
+  return lobe;
+}
+
+Spread glossy_lobe(double gloss) {
+  const Latitude<double> latitude(gloss);
+  Spread lobe;
+  for (int o = 0; o < kNodes; ++o) {
+    const double z = directions().z[o], y = z * z;
+    crowded(512, [&](double u, double weight) {
+      const double x = latitude.inverse(u, 1 - u, y, 1 - y);
+      lobe.add(o, std::sqrt(std::clamp(x, 0.0, 1.0)), weight);
+    });
+  }
+  return lobe;
+}
+
+/// G of materials/coated.h, from g = T / sqrt(K T), which is nearly right, by the square root of
+/// what is still wrong (Knight, Ruiz and Ucar 2014: the symmetric form of Sinkhorn's iteration).
+Values scaled_mean(const Spread& lobe, const Values& through) {
+  Values g = through, mean = lobe.mean(g);
+  double worst = 1;
+  for (int n = 0; n < 100 && worst > 1e-7; ++n) {
+    worst = 0;
+    for (int o = 0; o < kNodes; ++o) {
+      worst = std::max(worst, std::abs(g[o] * mean[o] - through[o]));
+      g[o] = std::sqrt(g[o] * through[o] / mean[o]);
+    }
+    mean = lobe.mean(g);
+  }
+  return mean;
+}
+
+/// G^2 - T, for every lobe and index.
+void write_coated(std::FILE* to, const char* name, const std::vector<Spread>& lobes) {
+  using namespace axes;
+  const int count = int(lobes.size());
+  std::vector<Values> table(std::size_t(count) * kCoatIndex, Values(kNodes));
+  parallel(int(table.size()), [&](int k) {
+    const double place = double(k % kCoatIndex) / (kCoatIndex - 1);
+    const double x = std::clamp(place * place * place * place, 1e-7, 1 - 1e-4);
+    Values through(kNodes);
+    for (int o = 0; o < kNodes; ++o)
+      through[o] = fresnel_split(directions().z[o], (1 + x) / (1 - x)).transmitted;
+    const Values mean = scaled_mean(lobes[k / kCoatIndex], through);
+    for (int o = 0; o < kNodes; ++o) table[k][o] = mean[o] * mean[o] - through[o];
+  });
+  const Grid grid({count, kCoatIndex, kCoatDirection}, [&](const double* x) {
+    const auto at = [](double u, int nodes) { return int(std::lround(u * (nodes - 1))); };
+    const Values& line = table[at(x[0], count) * kCoatIndex + at(x[1], kCoatIndex)];
+    const Place p(x[2]);
+    return line[p.first] * (1 - p.second) + line[p.first + 1] * p.second;
+  });
+  const Values spline = grid.spline();
+  write_numbers(to, name, {spline.begin(), spline.end()});
+}
+
+/// `make(place)` for places along the axis of widths.
+template <class Make>
+std::vector<Spread> lobes(int count, const Make& make) {
+  std::vector<Spread> all(count);
+  parallel(count, [&](int k) { all[k] = make(double(k) / (count - 1)); });
+  return all;
+}
+
+/// The inverse of axes::coat_alpha.
+double alpha_at(double place) { return std::max(place * place * place * place, 1e-6); }
+
+}  // namespace
+}  // namespace mms::materials::tables
+
+int main(int argc, char** argv) {
+  using namespace mms::materials;
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: mms_coated_tables FILE\n");
+    return 2;
+  }
+  std::FILE* to = std::fopen(argv[1], "w");
+  if (!to) {
+    std::perror(argv[1]);
+    return 1;
+  }
+  using namespace tables;
+  write_coated(to, "kGgxCoatedTable",
+               lobes(axes::kCoatAlpha, [](double x) { return facet_lobe<Ggx>(alpha_at(x)); }));
+  write_coated(to, "kBeckmannCoatedTable",
+               lobes(axes::kCoatAlpha, [](double x) { return facet_lobe<Beckmann>(alpha_at(x)); }));
+  write_coated(to, "kGlossyCoatedTable", lobes(axes::kGloss, [](double x) {
+                 return glossy_lobe(std::expm1(x * std::log1p(axes::kLargestGloss)));
+               }));
+  if (std::fclose(to) != 0) {
+    std::perror(argv[1]);
+    return 1;
+  }
+  return 0;
+}

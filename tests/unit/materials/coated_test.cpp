@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lobes that reflect, under a coat: what both together keep, by quadrature.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+
+#include "tests/unit/materials/albedo.h"
+#include "tests/unit/materials/cases.h"
+
+using namespace mms;
+using namespace mms::test;
+using materials::Bsdf;
+using materials::Mode;
+
+namespace {
+
+constexpr double kAngles[] = {0, 30, 60, 75, 85, 89, 89.99};
+
+struct Range {
+  double least = 2, most = 0;
+  void add(double x) {
+    least = std::min(least, x);
+    most = std::max(most, x);
+  }
+};
+
+/// Albedo of `base` under a polished coat; the delta's part is added by hand.
+double coated_albedo(const Material& base, double ior, double degrees, double azimuth, int panels) {
+  return albedo(coat(mirror(1), base, 0, 0, ior), degrees, azimuth, panels) +
+         materials::fresnel_dielectric(direction(degrees, azimuth).z, ior);
+}
+
+template <class Make>
+Range under_coats(const Make& make, std::initializer_list<double> numbers,
+                  std::initializer_list<double> iors, double azimuth, int panels) {
+  Range range;
+  for (double ior : iors)
+    for (double number : numbers)
+      for (double degrees : kAngles) {
+        if (kSanitized && (ior != 1.5 || degrees != 85)) continue;
+        range.add(coated_albedo(make(number), ior, degrees, azimuth, panels));
+      }
+  return range;
+}
+
+}  // namespace
+
+TEST_CASE("a lossless lobe under a lossless coat keeps its energy") {
+  struct Row {
+    std::string name;
+    Material (*make)(double number);
+    std::initializer_list<double> numbers;
+  };
+  const Row rows[] = {
+      {"microfacet", [](double r) { return microfacet(1, r); }, {0.1, 0.2, 0.35, 0.5, 0.75, 1.0}},
+      {"beckmann", [](double r) { return beckmann(1, r); }, {0.1, 0.35, 0.6, 1.0}},
+      {"conductor", [](double r) { return conductor(1, 1e25, r); }, {0.3}},
+      {"glossy", [](double g) { return glossy(1, g); }, {0.0, 0.7, 4.0, 40.0, 1000.0}}};
+  for (const Row& row : rows) {
+    const Range a = under_coats(row.make, row.numbers, {1.01, 1.1, 1.5, 4.0}, 0, 10);
+    CHECK_MESSAGE(a.least > 1 - 1e-3, row.name, ": ", a.least);
+    CHECK_MESSAGE(a.most < 1 + 1e-3, row.name, ": ", a.most);
+    MESSAGE(row.name, " under a coat: albedo from ", a.least, " to ", a.most);
+  }
+}
+
+TEST_CASE("stretched facets under a coat lose, and hardly gain") {
+  for (const bool ggx : {true, false}) {
+    const std::string name = ggx ? "microfacet" : "beckmann";
+    for (double anisotropy : {0.1, 0.5, 1.0}) {
+      Range a;
+      for (double azimuth : {0.0, 0.8, kPi<double> / 2}) {
+        const auto make = [&](double r) {
+          return ggx ? microfacet(1, r, anisotropy) : beckmann(1, r, anisotropy);
+        };
+        const Range b = under_coats(make, {0.6, 1.0}, {1.5}, azimuth, 10);
+        a.add(b.least);
+        a.add(b.most);
+      }
+      CHECK_MESSAGE(a.least > 0.9, anisotropy);
+      CHECK_MESSAGE(a.most < 1 + 2e-3, anisotropy);
+      MESSAGE(name, " of anisotropy ", anisotropy, " under a coat: albedo from ", a.least, " to ",
+              a.most);
+    }
+  }
+}
+
+TEST_CASE("a base that absorbs takes what it takes of what the coat lets through") {
+  // Narrow lobes, away from grazing, are all but mirrors: T F of a metal's F.
+  const Material metal = conductor(0.2, 3.9, 0.1);
+  for (double degrees : {0.0, 30.0, 60.0}) {
+    const double c = direction(degrees, 0).z, through = 1 - materials::fresnel_dielectric(c, 1.5);
+    const double alone = albedo(metal, degrees, 0, 12);
+    const double under = albedo(coat(mirror(1), metal, 0, 0, 1.5), degrees, 0, 12);
+    CHECK(under == doctest::Approx(alone * through).epsilon(1e-3));
+  }
+}
