@@ -42,7 +42,7 @@ struct CoatedLobe {
   }
 
   /// G^2 along a direction of |cosine| `z`, for relative index `eta` > 1 and T = `through` there.
-  /// Nowhere below 0.9 T: what rounding leaves of it next to the surface is kept from 0.
+  /// Nowhere below half of T: what rounding leaves of it next to the surface is kept from 0.
   R mean_squared(R eta, R z, R through) const {
     using namespace axes;
     const auto n = Stencil<R>::at(index(eta), kCoatIndex);

@@ -16,13 +16,13 @@
 ///
 /// Where the coat lets 1 - F through and the index is above 1, facets and `glossy` right below it
 /// get
-///   base: g(wo) g(wi)           (materials/coated.h), whose mean over the lobe is 1 - F, within
-///   1e-3;
-///                               stretched facets in part only
+///   base: g(wo) g(wi)           (materials/coated.h), whose mean over the lobe is 1 - F; stretched
+///                               facets in part only
 ///
-/// All are symmetric. As min(F, F') <= F and 1 - max(F, F') <= 1 - F, a lossless base under a
-/// lossless coat never exceeds albedo 1, and a specular coat over a Lambert base is 1 exactly; but
-/// near grazing a broad coat loses much: min(F, F') is small where F' is.
+/// All are symmetric. A lossless base under a lossless coat then has albedo 1 within 1e-3
+/// (stretched facets within 2e-3 above and a tenth below); under every other it never exceeds 1, as
+/// min(F, F') <= F and 1 - max(F, F') <= 1 - F. A specular coat over a Lambert base is 1 exactly;
+/// but near grazing a broad coat loses much: min(F, F') is small where F' is.
 ///
 /// Where the coat is one `glossy` or isotropic `microfacet` and the index above 1, what it reflects
 /// is known: with M(wo) the mean of F' over what it scatters (materials/energy.h) its factor is
