@@ -261,7 +261,7 @@ std::string stage_table(const std::vector<const Case*>& cases) {
 
 std::string marble() {
   const auto source = api::read_source(MMS_SOURCE_DIR "/examples/marble.mms");
-  return source ? (*source)->text : std::string();
+  return source ? std::string((*source)->text) : std::string();
 }
 
 Options options_of(int count, char** arguments) {
