@@ -7,7 +7,6 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -141,7 +141,7 @@ std::string Elaborator::describe(const Candidate& k) {
   if (k.row) return std::string(k.row->signature);
   const Span s = k.decl->function().header;
   if (!s.source) return k.decl->function().name.text;
-  return std::string(s.source->text.substr(s.begin, s.end - s.begin));
+  return std::string(text_of(s));
 }
 
 Value Elaborator::call_candidates(const std::vector<std::vector<Candidate>>& levels,

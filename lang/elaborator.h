@@ -406,7 +406,7 @@ class Elaborator {
   std::map<std::string, Scope*, std::less<>> modules_;
   std::vector<Listed> listed_;
   std::vector<std::uint32_t> library_first_, library_next_;  ///< chains of names, by their hash
-  std::set<std::string, std::less<>> made_library_names_;
+  std::set<std::string_view> made_library_names_;
   std::map<const Library::Module*, SourcePtr> module_sources_;
   std::map<const vm::Builtin*, std::unique_ptr<Signature>> signatures_;
   std::map<std::string, Instance> instances_;

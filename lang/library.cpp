@@ -3,7 +3,6 @@
 /// The library's names in the elaborator: which there are is known at once, what they stand for is
 /// made when a script first names them.
 
-#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -108,7 +107,7 @@ std::vector<Elaborator::LibraryName> Elaborator::library_names(std::string_view 
 void Elaborator::make_library_name(std::string_view name) {
   const std::vector<LibraryName> all = library_names(name);
   // Entered first: `define` looks the name up.
-  if (all.empty() || !made_library_names_.emplace(name).second) return;
+  if (all.empty() || !made_library_names_.insert(all[0].name).second) return;
   for (const LibraryName& n : all)
     if (n.row)
       library_scope_->names.try_emplace(std::string(name), functions())

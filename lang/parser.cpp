@@ -113,13 +113,13 @@ bool Parser::expect(Tok tok) {
 }
 
 std::string_view Parser::text(const Token& t) const {
-  return graph_.source->text.substr(t.begin, t.end - t.begin);
+  return text_of({graph_.source.get(), t.begin, t.end});
 }
 
 bool Parser::on_new_line() {
   const std::uint32_t end = previous_.end, next = peek().begin;
   if (at(Tok::Eof)) return true;
-  const std::string_view between = graph_.source->text.substr(end, next - end);
+  const std::string_view between = text_of({graph_.source.get(), end, next});
   return between.find('\n') != std::string_view::npos;
 }
 

@@ -45,6 +45,11 @@ struct Span {
   friend bool operator==(const Span&, const Span&) = default;
 };
 
+/// What a span that is somewhere holds.
+inline std::string_view text_of(Span span) {
+  return span.source->text.substr(span.begin, span.end - span.begin);
+}
+
 /// From the start of `a` to the end of `b`, which is in the same source.
 inline Span join(Span a, Span b) { return {a.source, a.begin, b.end}; }
 

@@ -101,7 +101,7 @@ std::string module_entries(const lang::Library::Module& module, Pictures& pictur
   for (const lang::FunctionHandle handle : graph.top_functions) {
     const lang::Function& f = graph[handle];
     if (f.doc.empty()) continue;
-    const std::string header(source->text.substr(f.header.begin, f.header.end - f.header.begin));
+    const std::string header(lang::text_of(f.header));
     text += fmt::format("`{}`\n\n{}{}\n", header, pictures.of(header), doc_markdown(f.doc));
   }
   return text;

@@ -11,15 +11,11 @@ namespace mms::tools {
 
 namespace {
 
-std::string text_of(lang::Span span) {
-  return std::string(span.source->text.substr(span.begin, span.end - span.begin));
-}
-
 /// The first line of what a span holds, without what ends it.
 std::string header_of(lang::Span span) {
-  std::string text = text_of(span);
+  std::string_view text = text_of(span);
   text = text.substr(0, text.find('\n'));
-  return text.substr(0, text.find_last_not_of(" \t\r;") + 1);
+  return std::string(text.substr(0, text.find_last_not_of(" \t\r;") + 1));
 }
 
 std::string entry(const std::string& header, const std::string& doc) {
@@ -42,7 +38,7 @@ std::string script_document(const lang::Graph& graph) {
   }
   for (const lang::Param& p : graph.params) params += entry(header_of(p.span), p.doc);
   for (const lang::FunctionHandle f : graph.top_functions)
-    functions += entry(text_of(graph[f].header), graph[f].doc);
+    functions += entry(std::string(text_of(graph[f].header)), graph[f].doc);
   for (const lang::Constant& k : graph.constants) constants += entry(header_of(k.span), k.doc);
   for (const lang::TypeDefinition& t : graph.type_definitions)
     types += entry(header_of(t.span), t.doc);
