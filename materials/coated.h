@@ -44,12 +44,7 @@ struct CoatedLobe {
   /// G^2 along a direction of |cosine| `z`, for relative index `eta` > 1 and T = `through` there.
   /// Nowhere below half of T: what rounding leaves of it next to the surface is kept from 0.
   R mean_squared(R eta, R z, R through) const {
-    using namespace axes;
-    const auto n = Stencil<R>::at(index(eta), kCoatIndex);
-    const auto d = Stencil<R>::at(coat_direction(z), kCoatDirection);
-    constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatIndex);
-    const R squared = through + interpolate(table, width, n0, n, n1, d);
-    return std::max(squared, through / 2);
+    return std::max(through + interpolate_coat(table, width, eta, z), through / 2);
   }
 };
 

@@ -264,6 +264,16 @@ inline R transmitted_share(R mean_here, R mean_there, R eta) {
   return there / (mean_here + there);
 }
 
+/// What the table of a coat holds for a lobe's width, relative index `eta` > 1 and |cosine| `z`.
+template <class R>
+inline R interpolate_coat(const float* table, const Stencil<R>& width, R eta, R z) {
+  using namespace axes;
+  const auto n = Stencil<R>::at(index(eta), kCoatIndex);
+  const auto d = Stencil<R>::at(coat_direction(z), kCoatDirection);
+  constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatIndex);
+  return interpolate(table, width, n0, n, n1, d);
+}
+
 /// The lobe of a coat of which it is known how it spreads light: a table and the place in it.
 template <class R>
 struct CoatLobe {
@@ -280,11 +290,7 @@ struct CoatLobe {
   /// Mean over wi of Fresnel's F(|wi.z|), as the lobe scatters from a direction of |cosine| `z`
   /// with reflectance `f` there; `eta` > 1.
   R mean_fresnel(R eta, R z, R f) const {
-    using namespace axes;
-    const auto n = Stencil<R>::at(index(eta), kCoatIndex);
-    const auto d = Stencil<R>::at(coat_direction(z), kCoatDirection);
-    constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatIndex);
-    const R mean = f + interpolate(table, width, n0, n, n1, d);
+    const R mean = f + interpolate_coat(table, width, eta, z);
     return mean > 0 ? std::min(mean, R(1)) : R(0);
   }
 };

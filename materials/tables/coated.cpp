@@ -203,26 +203,15 @@ double alpha_at(double place) { return std::max(place * place * place * place, 1
 
 int main(int argc, char** argv) {
   using namespace mms::materials;
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: mms_coated_tables FILE\n");
-    return 2;
-  }
-  std::FILE* to = std::fopen(argv[1], "w");
-  if (!to) {
-    std::perror(argv[1]);
-    return 1;
-  }
-  using namespace tables;
-  write_coated(to, "kGgxCoatedTable",
-               lobes(axes::kCoatAlpha, [](double x) { return facet_lobe<Ggx>(alpha_at(x)); }));
-  write_coated(to, "kBeckmannCoatedTable",
-               lobes(axes::kCoatAlpha, [](double x) { return facet_lobe<Beckmann>(alpha_at(x)); }));
-  write_coated(to, "kGlossyCoatedTable", lobes(axes::kGloss, [](double x) {
-                 return glossy_lobe(std::expm1(x * std::log1p(axes::kLargestGloss)));
-               }));
-  if (std::fclose(to) != 0) {
-    std::perror(argv[1]);
-    return 1;
-  }
-  return 0;
+  using namespace mms::materials::tables;
+  return make_tables(argc, argv, [](std::FILE* to) {
+    write_coated(to, "kGgxCoatedTable",
+                 lobes(axes::kCoatAlpha, [](double x) { return facet_lobe<Ggx>(alpha_at(x)); }));
+    write_coated(to, "kBeckmannCoatedTable", lobes(axes::kCoatAlpha, [](double x) {
+                   return facet_lobe<Beckmann>(alpha_at(x));
+                 }));
+    write_coated(to, "kGlossyCoatedTable", lobes(axes::kGloss, [](double x) {
+                   return glossy_lobe(std::expm1(x * std::log1p(axes::kLargestGloss)));
+                 }));
+  });
 }

@@ -234,23 +234,11 @@ std::vector<float> write_facets(std::FILE* to, const std::string& name) {
 
 int main(int argc, char** argv) {
   using namespace mms::materials;
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: mms_energy_tables FILE\n");
-    return 2;
-  }
-  std::FILE* to = std::fopen(argv[1], "w");
-  if (!to) {
-    std::perror(argv[1]);
-    return 1;
-  }
-  tables::write_facet_coat(to, tables::write_facets<Ggx>(to, "kGgx"));
-  tables::write_facets<Beckmann>(to, "kBeckmann");
-  tables::write_coat(to);
-  tables::write_interface(to, "kGgxDense", true);
-  tables::write_interface(to, "kGgxRare", false);
-  if (std::fclose(to) != 0) {
-    std::perror(argv[1]);
-    return 1;
-  }
-  return 0;
+  return tables::make_tables(argc, argv, [](std::FILE* to) {
+    tables::write_facet_coat(to, tables::write_facets<Ggx>(to, "kGgx"));
+    tables::write_facets<Beckmann>(to, "kBeckmann");
+    tables::write_coat(to);
+    tables::write_interface(to, "kGgxDense", true);
+    tables::write_interface(to, "kGgxRare", false);
+  });
 }

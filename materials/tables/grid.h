@@ -108,4 +108,19 @@ inline void write_numbers(std::FILE* to, const std::string& name, const std::vec
   std::fprintf(to, "\n};\n");
 }
 
+/// The `main` of such a program: `write` fills the file that its only argument names.
+inline int make_tables(int argc, char** argv, const std::function<void(std::FILE*)>& write) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: %s FILE\n", argv[0]);
+    return 2;
+  }
+  std::FILE* to = std::fopen(argv[1], "w");
+  if (to) {
+    write(to);
+    if (std::fclose(to) == 0) return 0;
+  }
+  std::perror(argv[1]);
+  return 1;
+}
+
 }  // namespace mms::materials::tables

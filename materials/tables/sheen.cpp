@@ -87,19 +87,6 @@ void write_sheen(std::FILE* to) {
 }  // namespace mms::materials::tables
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: mms_sheen_table FILE\n");
-    return 2;
-  }
-  std::FILE* to = std::fopen(argv[1], "w");
-  if (!to) {
-    std::perror(argv[1]);
-    return 1;
-  }
-  mms::materials::tables::write_sheen(to);
-  if (std::fclose(to) != 0) {
-    std::perror(argv[1]);
-    return 1;
-  }
-  return 0;
+  using namespace mms::materials::tables;
+  return make_tables(argc, argv, write_sheen);
 }
