@@ -22,6 +22,7 @@
 #include "bench/native_marble.h"
 #include "lang/link.h"
 #include "lang/parser.h"
+#include "materials/colour.h"
 #include "renderer/render.h"
 #include "renderer/scene.h"
 
@@ -179,27 +180,36 @@ std::string overhead() {
 
 // Quasi-Monte Carlo against random
 
-/// Root mean square over pixels of the spread of their luminance over seeds, and seconds.
+/// Root mean squares over pixels of the spread over seeds, of their luminance and of red, green and
+/// blue together, and seconds.
 struct Spread {
-  double error = 0, seconds = 0;
+  double error = 0, colour = 0, seconds = 0;
 };
 
 Spread spread(const Setting& s, int samples, Generator generator) {
   constexpr int kSide = 32, kSeeds = 8;
-  std::vector<double> sum(kSide * kSide), squares(kSide * kSide);
+  constexpr int kNumbers = 4;  // of a pixel: luminance, red, green, blue
+  std::vector<double> sum(kSide * kSide * kNumbers), squares(sum.size());
   Spread out;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     const auto [seconds, r] =
         charged([&] { return s.render(kSide, samples, 1, std::uint64_t(seed), generator); });
     out.seconds += seconds / kSeeds;
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-      sum[i] += r.film.xyz[i][1];
-      squares[i] += r.film.xyz[i][1] * r.film.xyz[i][1];
+    for (std::size_t i = 0; i < r.film.xyz.size(); ++i) {
+      const auto& [x, y, z] = r.film.xyz[i];
+      const Vec3d rgb = materials::linear_srgb_of_xyz({x, y, z});
+      const double numbers[kNumbers] = {y, rgb.x, rgb.y, rgb.z};
+      for (int k = 0; k < kNumbers; ++k) {
+        sum[i * kNumbers + k] += numbers[k];
+        squares[i * kNumbers + k] += numbers[k] * numbers[k];
+      }
     }
   }
   for (std::size_t i = 0; i < sum.size(); ++i)
-    out.error += (squares[i] - sum[i] * sum[i] / kSeeds) / (kSeeds - 1) / double(sum.size());
-  out.error = std::sqrt(out.error);
+    (i % kNumbers == 0 ? out.error : out.colour) +=
+        (squares[i] - sum[i] * sum[i] / kSeeds) / (kSeeds - 1);
+  out.error = std::sqrt(out.error / (kSide * kSide));
+  out.colour = std::sqrt(out.colour / (3 * kSide * kSide));
   return out;
 }
 
@@ -217,6 +227,7 @@ std::string sampling() {
       {"backlit", "translucent", "surface s\n bsdf = translucent(0.8);\nend\n"},
       {"prism", "glass",
        "surface s\n bsdf = dielectric(1.5 + 4e-15 / ($wavelength * $wavelength));\nend\n"},
+      {"grid", "glossy", "surface s\n bsdf = glossy(0.8, 100.0);\nend\n"},
   };
   std::string text =
       "## Quasi-Monte Carlo against random\n\n"
@@ -225,8 +236,10 @@ std::string sampling() {
       "error over log samples from 4\nto 64. Time at equal error: what random would take to come "
       "to "
       "the error of the sequence at 64 samples,\nby its slope of -1/2, over what the sequence "
-      "took.\n\n| scene, material | error at 4 | at 16 | at 64 | random at 64 | slope | slope, "
-      "random | time at equal error |\n|---|---|---|---|---|---|---|---|\n";
+      "took. Colour: the error at 16 samples of red, green and blue\ntogether over that of "
+      "luminance, which is what a render without colour would have; all but `cornell` and `prism`\n"
+      "are grey.\n\n| scene, material | error at 4 | at 16 | at 64 | random at 64 | slope | slope, "
+      "random | time at equal error | colour |\n|---|---|---|---|---|---|---|---|---|\n";
   for (const Case& c : kCases) {
     const Setting s(c.script, c.scene);
     std::vector<Spread> ours, random;
@@ -239,10 +252,10 @@ std::string sampling() {
     };
     const double gain = std::pow(random.back().error / ours.back().error, 2) *
                         random.back().seconds / ours.back().seconds;
-    text +=
-        fmt::format("| {}, {} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {:.2f} | {:.2f} | {:.2f} |\n",
-                    c.scene, c.material, ours[0].error, ours[1].error, ours[2].error,
-                    random[2].error, slope(ours), slope(random), gain);
+    text += fmt::format(
+        "| {}, {} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {:.2f} | {:.2f} | {:.2f} | {:.3f} |\n",
+        c.scene, c.material, ours[0].error, ours[1].error, ours[2].error, random[2].error,
+        slope(ours), slope(random), gain, ours[1].colour / ours[1].error);
   }
   return text;
 }
