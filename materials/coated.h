@@ -14,9 +14,9 @@
 /// f is below K's, and so is what it reflects.
 ///
 /// Tables hold G^2 - T for each width, index above 1 and direction (materials/tables/coated.cpp):
-/// the energy of coat and base is 1 within 1e-3. Of stretched facets only a share gets such a
-/// factor, the rest one that loses (materials/combine.h), as the factor is that of round facets and
-/// alone would gain up to 4% at some azimuths: they lose up to 10% and gain 2e-3 at most.
+/// the energy of coat and base is 1 within 1e-3. The factor of stretched facets is that of round
+/// ones as wide along the direction, which gains at some azimuths and loses at others: it is
+/// lowered by about the most that it gains.
 
 #include "materials/energy.h"
 
@@ -27,15 +27,25 @@ extern const float* const kGgxCoated;
 extern const float* const kBeckmannCoated;
 extern const float* const kGlossyCoated;
 
+/// Mean of the product of Fresnel's reflectances of two relative indices: int F G 2 z dz, to 1e-4.
+extern const float* const kFresnelProduct;  ///< [index][index]
+
+template <class R>
+inline R mean_fresnel_product(R a, R b) {
+  using namespace axes;
+  const auto x = Stencil<R>::at(index(a), kCoatIndex), y = Stencil<R>::at(index(b), kCoatIndex);
+  return interpolate(kFresnelProduct, x, coefficients(kCoatIndex), y);
+}
+
 /// One lobe's width; of stretched facets, along one direction.
 template <class R>
 struct CoatedLobe {
   const float* table;
   Stencil<R> width;
-  R share = 1;  ///< how much of it is known
+  R scale = 1;  ///< of the factor
 
-  static CoatedLobe facets(const float* table, R alpha, R share = 1) {
-    return {table, Stencil<R>::at(axes::coat_alpha(alpha), axes::kCoatAlpha), share};
+  static CoatedLobe facets(const float* table, R alpha, R scale = 1) {
+    return {table, Stencil<R>::at(axes::coat_alpha(alpha), axes::kCoatAlpha), scale};
   }
   static CoatedLobe glossy(R gloss) {
     return {kGlossyCoated, Stencil<R>::at(axes::gloss(gloss), axes::kGloss), R(1)};

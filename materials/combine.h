@@ -16,13 +16,13 @@
 ///
 /// Where the coat lets 1 - F through and the index is above 1, facets and `glossy` right below it
 /// get
-///   base: g(wo) g(wi)           (materials/coated.h), whose mean over the lobe is 1 - F; stretched
-///                               facets in part only
+///   base: g(wo) g(wi)           (materials/coated.h), whose mean over the lobe is 1 - F
 ///
 /// All are symmetric. A lossless base under a lossless coat then has albedo 1 within 1e-3
-/// (stretched facets within 2e-3 above and a tenth below); under every other it never exceeds 1, as
-/// min(F, F') <= F and 1 - max(F, F') <= 1 - F. A specular coat over a Lambert base is 1 exactly;
-/// but near grazing a broad coat loses much: min(F, F') is small where F' is.
+/// (stretched facets gain 2e-3 at most and lose up to 6%, those of `beckmann` 12%); under every
+/// other it never exceeds 1, as min(F, F') <= F and 1 - max(F, F') <= 1 - F. A specular coat over a
+/// Lambert base is 1 exactly; but near grazing a broad coat loses much: min(F, F') is small where
+/// F' is.
 ///
 /// Where the coat is one `glossy` or isotropic `microfacet` and the index above 1, what it reflects
 /// is known: with M(wo) the mean of F' over what it scatters (materials/energy.h) its factor is
@@ -30,8 +30,15 @@
 ///   base: 1 - max(E, E')        or, for the Lambert lobes right below it,
 ///         (1 - E)(1 - E') / (1 - mean F)   as the means of E and F are the same
 /// so that a white matte under such a white coat is 1 in every direction, within 1e-4 (facets
-/// next to a mirror, of a roughness below 0.1: 2e-3). Of nested
-/// `fresnel_mix`, only the one nearest the Lambert lobe uses the product, for the same bound.
+/// next to a mirror, of a roughness below 0.1: 2e-3).
+///
+/// Where a coat lies under such a coat of T = 1 - F, which may be plastic under varnish, the
+/// Lambert lobes right below both get the product of what both let through over its own mean,
+///   base: T T' (1 - E)(1 - E') / mean T (1 - F_below)
+/// and the lower coat's lobe what any lobe below the upper one gets. Never more than 1; at
+/// most 1.3% is lost, by a lower coat that is broad. Of deeper nests, and of others, only the
+/// `fresnel_mix` nearest the Lambert lobe uses the product, for the same bound.
+///
 /// `rough_matte` gets a share 1 - roughness / 4 of the product, the rest of the other factor: the
 /// largest that never gains (by quadrature over index and roughness); it loses up to 2%.
 ///
@@ -61,8 +68,15 @@ namespace mms::materials {
 template <class R>
 struct NodeWeight {
   Spectrum<R> other{R(1)}, lambert{R(1)};
-  /// The indices of the coat right above, which is one that lets through 1 - F; null: none.
+  /// The indices of the coat right above, which is one that lets through T = 1 - F; null: none.
   const R* coat = nullptr;
+  Spectrum<R>
+      coated{};  ///< with it: the factor for lobes with a G of materials/coated.h, times G G'
+
+  /// The weight of a child that is a part of the node.
+  NodeWeight operator*(const Spectrum<R>& part) const {
+    return {other * part, lambert * part, coat, coated * part};
+  }
 };
 
 /// One entry for each node of a layout; entries beyond it are not initialised.
@@ -107,25 +121,32 @@ inline CoatLobe<R> coat_lobe(const Layout& layout, const R* params, int node) {
   return {};
 }
 
-/// Reflected and transmitted by a coat of that lobe in all, and the factor of the lobe for one pair
-/// of directions.
+/// What a coat does to one pair of directions: the factor of its own lobe; the bounded one of its
+/// base; and the product of what it lets through along both.
 template <class R>
 struct CoatFactors {
-  R coat, base, lambert;
+  R coat, base, through;
 };
 
 template <class R>
 inline CoatFactors<R> coat_factors(R eta, const CoatLobe<R>& lobe, R cos_o, R cos_i,
                                    FresnelSplit<R> o, FresnelSplit<R> i) {
-  const R kept = 1 - fresnel_dielectric_diffuse(eta);
   R coat = std::min(o.reflected, i.reflected);
   if (lobe.table && eta > 1) {
     coat = (o.reflected + i.reflected) / 2;
     o.transmitted = (o.transmitted + 1 - lobe.mean_fresnel(eta, cos_o, o.reflected)) / 2;
     i.transmitted = (i.transmitted + 1 - lobe.mean_fresnel(eta, cos_i, i.reflected)) / 2;
   }
-  return {coat, std::min(o.transmitted, i.transmitted),
-          kept > 0 ? o.transmitted * i.transmitted / kept : R(0)};
+  return {coat, std::min(o.transmitted, i.transmitted), o.transmitted * i.transmitted};
+}
+
+/// The mean of what a coat of relative index `eta` lets through; under another of index `above`,
+/// of the product of what both do.
+template <class R>
+inline R mean_through(R eta, R above) {
+  const R through = 1 - fresnel_dielectric_diffuse(eta);
+  if (!(above > 1 && eta > 1)) return through;
+  return through - fresnel_dielectric_diffuse(above) + mean_fresnel_product(eta, above);
 }
 
 template <class R>
@@ -134,17 +155,24 @@ inline void weigh_fresnel_mix(const R* ior, const CoatLobe<R>& lobe, R cos_o, R 
   cos_o = limited(cos_o, R(0), R(1));
   cos_i = limited(cos_i, R(0), R(1));
   CoatFactors<R> f{};
+  R kept = 1, last_above = 0;
+  Spectrum<R> reflects;
   for_each_index(ior, [&](int j, bool repeated) {
     const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
+    const R above = w.coat ? relative_eta(w.coat[j], Vec3<R>{0, 0, 1}) : R(0);
+    const bool known = above > 1 && eta > 1;
+    if (!repeated || above != last_above) kept = mean_through(eta, above);
+    last_above = above;
     if (!repeated)
       f = coat_factors(eta, lobe, cos_o, cos_i, fresnel_split(cos_o, eta),
                        fresnel_split(cos_i, eta));
-    // The factor of an outer mix stays in its bounded form: w.other, not w.lambert.
-    coat.other[j] = coat.lambert[j] = w.other[j] * f.coat;
+    reflects[j] = f.coat;
     base.other[j] = w.other[j] * f.base;
-    base.lambert[j] = w.other[j] * f.lambert;
+    // Elsewhere the factor of a mix above stays in its bounded form: w.other, not w.lambert.
+    base.lambert[j] = kept > 0 ? (known ? w.coated[j] : w.other[j]) * f.through / kept : R(0);
+    base.coated[j] = w.other[j] * f.through;
   });
-  coat.coat = nullptr;
+  coat = w * reflects;
   base.coat = lobe.table ? nullptr : ior;
 }
 
@@ -217,31 +245,27 @@ inline void weigh(const Layout& layout, const R* params, R cos_o, R cos_i, Mode 
     const R* p = params + node.first_param;
     const int a = node.children[0], b = node.children[1];
     switch (node.lobe) {
-      case Lobe::Mix:
-        for (int j = 0; j < kWavelengths; ++j) {
-          const R t = limited(p[j], R(0), R(1));
-          w[a].other[j] = w[i].other[j] * (1 - t);
-          w[a].lambert[j] = w[i].lambert[j] * (1 - t);
-          w[b].other[j] = w[i].other[j] * t;
-          w[b].lambert[j] = w[i].lambert[j] * t;
-        }
-        w[a].coat = w[b].coat = w[i].coat;
-        break;
-      case Lobe::Scale: {
-        const Spectrum<R> t = weight_at(p);
-        w[a] = {w[i].other * t, w[i].lambert * t, w[i].coat};
+      case Lobe::Mix: {
+        Spectrum<R> second;
+        for (int j = 0; j < kWavelengths; ++j) second[j] = limited(p[j], R(0), R(1));
+        w[a] = w[i] * (Spectrum<R>(R(1)) - second);
+        w[b] = w[i] * second;
         break;
       }
+      case Lobe::Scale:
+        w[a] = w[i] * weight_at(p);
+        break;
       case Lobe::Add:
         w[a] = w[b] = w[i];
         break;
       case Lobe::Layer: {
         const detail::LayerLeaves<R> left(layout, params, node);
-        w[a] = {w[i].other * left.weight, w[i].lambert * left.weight, w[i].coat};
-        w[b] = {w[i].other * left.along(mode == Mode::Radiance ? cos_o : cos_i),
-                left.fibres ? w[i].other * left.lambert(cos_o, cos_i)
-                            : w[i].lambert * (1 - left.weight),
-                left.fibres ? nullptr : w[i].coat};
+        w[a] = w[i] * Spectrum<R>(left.weight);
+        if (left.fibres)
+          w[b] = {w[i].other * left.along(mode == Mode::Radiance ? cos_o : cos_i),
+                  w[i].other * left.lambert(cos_o, cos_i)};
+        else
+          w[b] = w[i] * Spectrum<R>(1 - left.weight);
         break;
       }
       case Lobe::FresnelMix:
@@ -254,6 +278,7 @@ inline void weigh(const Layout& layout, const R* params, R cos_o, R cos_i, Mode 
         detail::dim_by_layer(p, cos_o, cos_i, [&](int j, R through) {
           w[b].other[j] *= through;
           w[b].lambert[j] *= through;
+          w[b].coated[j] *= through;
         });
         break;
       default:
@@ -277,11 +302,9 @@ inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const CoatedLobe<R>& o,
       const auto squared = [&](const CoatedLobe<R>& lobe, R c) {
         return lobe.mean_squared(eta, c, fresnel_split(c, eta).transmitted);
       };
-      scale = (1 - fresnel_dielectric_diffuse(eta)) /
-              (std::sqrt(squared(o, cos_o)) * std::sqrt(squared(i, cos_i)));
+      scale = 1 / (std::sqrt(squared(o, cos_o)) * std::sqrt(squared(i, cos_i)));
     }
-    const R known = eta > 1 ? o.share : R(0);
-    f[j] = known * scale * w.lambert[j] + (1 - known) * w.other[j];
+    f[j] = eta > 1 ? o.scale * scale * w.coated[j] : w.other[j];
   });
   return f;
 }

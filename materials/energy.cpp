@@ -19,6 +19,7 @@ const float* const kGgxCoat = kGgxCoatTable;
 const float* const kGgxCoated = kGgxCoatedTable;
 const float* const kBeckmannCoated = kBeckmannCoatedTable;
 const float* const kGlossyCoated = kGlossyCoatedTable;
+const float* const kFresnelProduct = kFresnelProductTable;
 const InterfaceTables kGgxInterface{{kGgxDense, kGgxRare}, {kGgxDenseMean, kGgxRareMean}};
 
 }  // namespace mms::materials

@@ -11,7 +11,8 @@
 ///   shadow(w)             |w.z| Lambda(w): finite at grazing angles
 ///   sample_visible(wo, u1, u2)  a normal that `wo` (z > 0) sees
 ///   tables()              what multiple scattering needs (materials/energy.h)
-///   coated()              what a coat needs (materials/coated.h)
+///   coated(), kCoatedGain what a coat needs, and what it gains at most where facets are as
+///                         stretched as they can be, by quadrature (materials/coated.h)
 
 #include "materials/coated.h"
 #include "materials/energy.h"
@@ -76,6 +77,7 @@ struct Ggx : Alpha<R> {
 
   static const FacetTables& tables() { return kGgxTables; }
   static const float* coated() { return kGgxCoated; }
+  static constexpr double kCoatedGain = 0.037;
 };
 
 /// x with erf(x) = `y` in (-1, 1): a start after Winitzki (2008), then Newton's method.
@@ -124,6 +126,7 @@ struct Beckmann : Alpha<R> {
 
   static const FacetTables& tables() { return kBeckmannTables; }
   static const float* coated() { return kBeckmannCoated; }
+  static constexpr double kCoatedGain = 0.048;
 
  private:
   /// The slope along a direction of cosine c and sine s: the density over x < c / s is proportional

@@ -38,12 +38,13 @@ struct RoughReflection {
   bool specular() const { return facets.specular(); }
   FacetLoss<R> loss() const { return {&facets.tables(), facets.ax, facets.ay}; }
   BounceSampling<R> bounces() const { return {facets.ax * facets.ay}; }
-  /// Along `w`; stretched facets are in part taken for round ones that are as wide there.
+  /// Along `w`; stretched facets are taken for round ones that are as wide there, and weighed by
+  /// what this would gain at most.
   CoatedLobe<R> coated(Vec3<R> w) const {
     const R x = facets.ax, y = facets.ay, t = facets.tangent(w);
     if (x == y) return CoatedLobe<R>::facets(facets.coated(), x);
     return CoatedLobe<R>::facets(facets.coated(), std::sqrt(t * t + w.z * w.z * x * y),
-                                 1 / (1 + 8 * std::abs(std::log(x / y))));
+                                 1 - R(facets.kCoatedGain) * (1 - std::min(x / y, y / x)));
   }
 
   /// What happens between two directions of one side.

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "base/quadrature.h"
 #include "materials/facets.h"
 #include "materials/fresnel.h"
 #include "materials/glossy.h"
@@ -163,17 +164,38 @@ Values scaled_mean(const Spread& lobe, const Values& through) {
   return mean;
 }
 
+/// The inverse of axes::index.
+double index_at(double place) {
+  const double x = std::clamp(place * place * place * place, 1e-7, 1 - 1e-4);
+  return (1 + x) / (1 - x);
+}
+
+void write_product(std::FILE* to) {
+  const Grid grid({axes::kCoatIndex, axes::kCoatIndex}, [](const double* x) {
+    const double a = index_at(x[0]), b = index_at(x[1]);
+    const auto product = [&](double u) {  // z = u^3: dense towards grazing
+      const double z = u * u * u;
+      return 6 * u * u * z * fresnel_dielectric(z, a) * fresnel_dielectric(z, b);
+    };
+    double sum = 0;
+    constexpr int kPanels = 64;
+    for (int k = 0; k < kPanels; ++k)
+      sum += integrate<8>(product, double(k) / kPanels, (k + 1.0) / kPanels);
+    return sum;
+  });
+  const Values spline = grid.spline();
+  write_numbers(to, "kFresnelProductTable", {spline.begin(), spline.end()});
+}
+
 /// G^2 - T, for every lobe and index.
 void write_coated(std::FILE* to, const char* name, const std::vector<Spread>& lobes) {
   using namespace axes;
   const int count = int(lobes.size());
   std::vector<Values> table(std::size_t(count) * kCoatIndex, Values(kNodes));
   parallel(int(table.size()), [&](int k) {
-    const double place = double(k % kCoatIndex) / (kCoatIndex - 1);
-    const double x = std::clamp(place * place * place * place, 1e-7, 1 - 1e-4);
+    const double eta = index_at(double(k % kCoatIndex) / (kCoatIndex - 1));
     Values through(kNodes);
-    for (int o = 0; o < kNodes; ++o)
-      through[o] = fresnel_split(directions().z[o], (1 + x) / (1 - x)).transmitted;
+    for (int o = 0; o < kNodes; ++o) through[o] = fresnel_split(directions().z[o], eta).transmitted;
     const Values mean = scaled_mean(lobes[k / kCoatIndex], through);
     for (int o = 0; o < kNodes; ++o) table[k][o] = mean[o] * mean[o] - through[o];
   });
@@ -213,5 +235,6 @@ int main(int argc, char** argv) {
     write_coated(to, "kGlossyCoatedTable", lobes(axes::kGloss, [](double x) {
                    return glossy_lobe(std::expm1(x * std::log1p(axes::kLargestGloss)));
                  }));
+    write_product(to);
   });
 }
