@@ -8,6 +8,7 @@
 
 #include "renderer/enclosure.h"
 #include "scenes.h"
+#include "tests/sanitized.h"
 
 using namespace mms;
 using namespace mms::renderer;
@@ -219,6 +220,38 @@ TEST_CASE("a constant that is not a number and a gradient that is none are named
   CHECK(b.settings.find("--set uv=[") != std::string::npos);
 }
 
+TEST_CASE("a lossless material is as bright as its light, in a render") {
+  // To what each keeps by quadrature (tests/unit/materials): 1e-3, and the least of either.
+  for (const char* bsdf : {"matte(1)",
+                           "translucent(1)",
+                           "rough_matte(1, 0.5)",
+                           "glossy(1, 3)",
+                           "glossy(1, 1000)",
+                           "glossy_back(1)",
+                           "glossy_through(1)",
+                           "mirror(1)",
+                           "microfacet(1, 0.5)",
+                           "microfacet(1, 0.5, 0.7)",
+                           "beckmann(1, 0.7)",
+                           "conductor(1, 1e25, 0.4)",
+                           "dielectric(1.5)",
+                           "dielectric(1.5, 0.4)",
+                           "dielectric(1.1, 0.8)",
+                           "slab(1.5)",
+                           "film_dielectric(1.5, 1.38, 300nm, $wavelength)",
+                           "fresnel_mix(matte(1), glossy(1, 30))",
+                           "coat(mirror(1), matte(1))",
+                           "coat(mirror(1), microfacet(1, 0.5))",
+                           "layer(sheen(1, 0.5), matte(1))",
+                           "mix(matte(1), mix(mirror(1), dielectric(1.3), 0.5), 0.7)"}) {
+    const vm::Program p = compile(fmt::format("surface s\n bsdf = {};\nend\n", bsdf));
+    RenderOptions o = options(kSanitized ? 8 : 24, kSanitized ? 16 : 64);
+    o.max_depth = 1000;  // of paths that go to and fro inside
+    const Mean seen = mean_luminance(run(p, builtin(p, "furnace"), o).film);
+    CHECK_MESSAGE(std::abs(seen.value - 1) < 4 * seen.error + 1e-3, bsdf, ": ", seen.value);
+  }
+}
+
 TEST_CASE("a bump loses what the tilted hemisphere has below the surface") {
   // Of Lambert's lobe about a normal that is tilted by t, a share (1 - cos t) / 2 is below the
   // plane: what leaves to there or comes from there is dropped, as nothing passes the surface.
@@ -226,8 +259,8 @@ TEST_CASE("a bump loses what the tilted hemisphere has below the surface") {
     "environment": {"constant": 1}, "objects": [
     {"quad": {"corner": [-1, -1, 0], "u": [2, 0, 0], "v": [0, 2, 0]}, "test": true}]})";
   for (const double slope : {0.0, 0.3, 1.0}) {
-    const vm::Program p = compile(
-        fmt::format("surface s\n bsdf = matte(1); gradient = [{:.1f}, 0];\nend\n", slope));
+    const vm::Program p =
+        compile(fmt::format("surface s\n bsdf = matte(1); gradient = [{:.1f}, 0];\nend\n", slope));
     const Result<Rendered> r = render(p, scene_of(p, open), options(16, 256));
     REQUIRE(bool(r));
     const Mean seen = mean_luminance(r->film);
