@@ -2,25 +2,26 @@
 #pragma once
 
 /// \file
-/// `dielectric`: an interface that reflects by Fresnel and refracts the rest, ideal at roughness 0,
-/// else GGX facets (Walter et al. 2007). Each wavelength has its own index, so a rough direction is
-/// looked up with a different half vector for each: that is what the hypothetical pdfs hold. What
-/// facets send on to other facets is given back on both sides (materials/energy.h).
+/// `dielectric` and `beckmann_dielectric`: an interface that reflects by Fresnel and refracts the
+/// rest, ideal at roughness 0, else GGX or Beckmann facets (Walter et al. 2007). Each wavelength
+/// has its own index, so a rough direction is looked up with a different half vector for each: that
+/// is what the hypothetical pdfs hold. What facets send on to other facets is given back on both
+/// sides (materials/energy.h).
 
 #include "materials/fresnel.h"
 #include "materials/microfacet.h"
 
 namespace mms::materials {
 
-template <class R>
-struct Dielectric {
+template <class R, template <class> class Distribution>
+struct RoughInterface {
   const R* ior;
-  Ggx<R> ggx;
+  Distribution<R> facets;
   Spectrum<R> reflected, transmitted;
 
-  explicit Dielectric(const R* p)
+  RoughInterface(const R* p, R anisotropy)
       : ior(p),
-        ggx{Alpha<R>::from(p[kWavelengths], R(0))},
+        facets{Alpha<R>::from(p[kWavelengths], anisotropy)},
         reflected(weight_at(p + kWavelengths + 1)),
         transmitted(weight_at(p + 2 * kWavelengths + 1)) {}
 
@@ -32,7 +33,7 @@ struct Dielectric {
       const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
       bend = std::max(bend, std::abs(eta - 1));
     }
-    return ggx.specular() || !(ggx.ax * bend >= R(kMinAlpha));
+    return facets.specular() || !(narrow() * bend >= R(kMinAlpha));
   }
 
   Spectrum<R> estimate(Vec3<R> wo) const {
@@ -64,14 +65,14 @@ struct Dielectric {
     if (u_lobe < b.lost) {
       const Choice c = choose(0, {b.reflect, b.transmit});
       if (!(c.reflect + c.transmit > 0)) return false;
-      wi = BounceSampling<R>{ggx.ax * ggx.ax}.sample(u1, u2);
+      wi = BounceSampling<R>{facets.ax * facets.ay}.sample(u1, u2);
       if (!(wi.z > 0)) return false;
       const bool down = u_lobe >= c.reflect * b.lost;
       wi.z = down == (wo.z > 0) ? -wi.z : wi.z;
       return true;
     }
     u_lobe = (u_lobe - b.lost) / (1 - b.lost);
-    const Vec3<R> h = ggx.sample_visible(up, u1, u2);
+    const Vec3<R> h = facets.sample_visible(up, u1, u2);
     const R c = dot(up, h);
     if (!(c > 0)) return false;
     const R eta = rough_eta(0, wo);
@@ -96,11 +97,13 @@ struct Dielectric {
     R reflect = 0, transmit = 0;
   };
 
+  R narrow() const { return std::min(facets.ax, facets.ay); }
+
   /// Index ratio with the bend kept above what `specular()` resolves; wavelengths of one material
   /// differ little, so this matters only where a dispersion curve crosses 1.
   R rough_eta(int j, Vec3<R> wo) const {
     const R n = relative_eta(ior[j], Vec3<R>{0, 0, 1});
-    const R least = R(kMinAlpha) / ggx.ax;
+    const R least = R(kMinAlpha) / narrow();
     const R bent = std::abs(n - 1) >= least ? n : n < 1 ? 1 - std::min(least, R(0.5)) : 1 + least;
     return wo.z > 0 ? bent : 1 / bent;
   }
@@ -117,14 +120,15 @@ struct Dielectric {
   Bounces bounces(int j, Vec3<R> wo, Vec3<R> wi) const {
     Bounces b;
     b.eta = rough_eta(j, wo);
-    const InterfaceLoss<R> here{ggx.ax, b.eta}, there{ggx.ax, 1 / b.eta};
+    const InterfaceLoss<R> here{&facets.interface(), facets.ax, facets.ay, b.eta},
+        there{&facets.interface(), facets.ax, facets.ay, 1 / b.eta};
     const bool reflects = same_side(wo, wi);
     const R mean_here = here.mean(), mean_there = there.mean();
     b.lost = here.at(wo);
     b.transmit = transmitted_share(mean_here, mean_there, b.eta);
     b.reflect = 1 - b.transmit;
     b.shape = (reflects ? here : there).at(wi) / (kPi<R> * (reflects ? mean_here : mean_there));
-    b.pdf = BounceSampling<R>{ggx.ax * ggx.ax}.pdf(std::abs(wi.z));
+    b.pdf = BounceSampling<R>{facets.ax * facets.ay}.pdf(std::abs(wi.z));
     return b;
   }
 
@@ -148,7 +152,8 @@ struct Dielectric {
     const HalfVector<R> half(o, i);
     const Vec3<R> h = half.h;
     if (!(h.z > 0)) return out;
-    const R f = ggx.density(h) * materials::masking(ggx, o, i), pdf = visible(ggx, o, h) / 4;
+    const R f = facets.density(h) * materials::masking(facets, o, i),
+            pdf = visible(facets, o, h) / 4;
     for (int j = 0; j < kWavelengths; ++j) {
       const FresnelSplit<R> s = fresnel_split(half.cosine, rough_eta(j, wo));
       out.f[j] = s.reflected * reflected[j] * f;
@@ -160,7 +165,7 @@ struct Dielectric {
   Lobes<R> evaluate_transmission(Vec3<R> wo, Vec3<R> wi, Mode mode) const {
     Lobes<R> out;
     const Vec3<R> o = to_upper(wo, wo), i = to_upper(wi, wo);
-    const R masking = materials::masking(ggx, o, i);
+    const R masking = materials::masking(facets, o, i);
     for (int j = 0; j < kWavelengths; ++j) {
       const R eta = rough_eta(j, wo);
       if (repeated(j)) {
@@ -181,11 +186,20 @@ struct Dielectric {
       const R scale = mode == Mode::Radiance ? R(1) : eta * eta;
       // masking already holds 1 / (4 |wo.z| |wi.z|).
       out.f[j] =
-          s.transmitted * transmitted[j] * ggx.density(h) * 4 * masking * oh * jacobian * scale;
-      out.pdf[j] = choose(j, s).transmit * visible(ggx, o, h) * oh * jacobian * eta * eta;
+          s.transmitted * transmitted[j] * facets.density(h) * 4 * masking * oh * jacobian * scale;
+      out.pdf[j] = choose(j, s).transmit * visible(facets, o, h) * oh * jacobian * eta * eta;
     }
     return out;
   }
+};
+
+template <class R>
+struct Dielectric : RoughInterface<R, Ggx> {
+  explicit Dielectric(const R* p) : RoughInterface<R, Ggx>(p, p[3 * kWavelengths + 1]) {}
+};
+template <class R>
+struct BeckmannDielectric : RoughInterface<R, Beckmann> {
+  explicit BeckmannDielectric(const R* p) : RoughInterface<R, Beckmann>(p, R(0)) {}
 };
 
 }  // namespace mms::materials

@@ -20,6 +20,12 @@ const float* const kGgxCoated = kGgxCoatedTable;
 const float* const kBeckmannCoated = kBeckmannCoatedTable;
 const float* const kGlossyCoated = kGlossyCoatedTable;
 const float* const kFresnelProduct = kFresnelProductTable;
-const InterfaceTables kGgxInterface{{kGgxDense, kGgxRare}, {kGgxDenseMean, kGgxRareMean}};
+const InterfaceTables kGgxInterface{{kGgxDense, kGgxRare},
+                                    {kGgxDenseMean, kGgxRareMean},
+                                    {kGgxDenseStretched, kGgxRareStretched},
+                                    {kGgxDenseStretchedMean, kGgxRareStretchedMean},
+                                    0.1f};
+const InterfaceTables kBeckmannInterface{
+    {kBeckmannDense, kBeckmannRare}, {kBeckmannDenseMean, kBeckmannRareMean}, {}, {}, 0.003f};
 
 }  // namespace mms::materials

@@ -27,13 +27,17 @@ struct FacetTables {
 };
 extern const FacetTables kGgxTables, kBeckmannTables;
 
-/// The same of isotropic GGX facets of a lossless dielectric, reflection and refraction together:
-/// [0] where the index rises on the far side, [1] where it falls.
+/// The same of facets of a lossless dielectric, reflection and refraction together: [0] where the
+/// index rises on the far side, [1] where it falls. What is said of stretched facets is how they
+/// differ from round ones (InterfaceLoss), so that few nodes do.
 struct InterfaceTables {
-  const float* loss[2];  ///< [alpha][index][direction]
-  const float* mean[2];  ///< [alpha][index], over `mean_unit`
+  const float* loss[2];            ///< [alpha][index][direction], isotropic
+  const float* mean[2];            ///< [alpha][index], isotropic, over `mean_unit`
+  const float* stretched[2];       ///< [alpha][aspect][azimuth][index][direction]; null: not known
+  const float* stretched_mean[2];  ///< [alpha][aspect][index], over the mean of round facets
+  float least_mean;                ///< over `mean_unit`: less than any mean is in truth
 };
-extern const InterfaceTables kGgxInterface;
+extern const InterfaceTables kGgxInterface, kBeckmannInterface;
 
 /// Mean Fresnel reflectance over the directions that a coat's lobe scatters to, minus that at the
 /// direction it scatters from, for indices above 1: [gloss][index][direction] of `glossy`,
@@ -52,8 +56,20 @@ inline constexpr int kStretchedMean = 65, kMeanAspect = 12;
 /// [1] where the index falls on the far side: the loss has a ridge along the critical angle there.
 inline constexpr int kInterfaceAlpha = 19, kIndex[] = {29, 37}, kInterfaceDirection[] = {61, 75};
 inline constexpr int kInterfaceMean = 65;
+/// Bent: of stretched facets of an interface.
+inline constexpr int kBentAlpha[] = {6, 7}, kBentAspect[] = {5, 6}, kBentAzimuth[] = {11, 16};
+inline constexpr int kBentIndex[] = {8, 10}, kBentDirection[] = {21, 15};
+inline constexpr int kBentMeanAlpha = 17, kBentMeanAspect = 6, kBentMeanIndex = 12;
+/// Roots of the least alpha of stretched facets; below, all is as there, but for its scale.
+inline constexpr double kLeastBentRoot = 0.1, kLeastBentFourthRoot = 0.15;
 inline constexpr int kGloss = 33, kCoatAlpha = 25, kCoatIndex = 37, kCoatDirection = 49;
 inline constexpr double kLargestGloss = 5e4;
+
+/// Above the surface.
+template <class R>
+inline R angle(R z, R s) {
+  return std::atan2(z, s) * (2 / std::numbers::pi_v<R>);
+}
 
 /// Of a direction of |cosine| `z` and tangential length `s`; fine where z is near 0 or `width` s.
 template <class R>
@@ -98,11 +114,25 @@ inline R aspect(R quotient) {
   return std::log(quotient) / std::numbers::ln10_v<R>;
 }
 
+/// Of stretched facets of an interface: finer where they are nearly round.
+template <class R>
+inline R bent_aspect(R quotient) {
+  return std::pow(aspect(quotient), R(0.7));
+}
+template <class R>
+inline R bent_alpha(R a) {
+  return (std::sqrt(a) - R(kLeastBentRoot)) / R(1 - kLeastBentRoot);
+}
+template <class R>
+inline R bent_mean_alpha(R a) {
+  return (coat_alpha(a) - R(kLeastBentFourthRoot)) / R(1 - kLeastBentFourthRoot);
+}
+
 /// Of a tangent (x, y) that is stretched by the roots of both alphas, half way between the surface,
 /// where directions are, and facets that look round.
 template <class R>
 inline R azimuth(R x, R y) {
-  return std::atan2(std::abs(x), std::abs(y)) * (2 / std::numbers::pi_v<R>);
+  return angle(std::abs(x), std::abs(y));
 }
 
 /// Finer towards 0, where it is grazing: losses grow as z^0.8 there for indices near 1.
@@ -115,15 +145,13 @@ inline R towards_grazing(R x) {
 /// angle.
 template <class R>
 inline R stretched_direction(R z, R s, R tangent, R area) {
-  const R angle = std::atan2(z, s) * (2 / std::numbers::pi_v<R>);
-  return towards_grazing((3 * direction(z, tangent, 1 / (1 + area)) + angle) / 4);
+  return towards_grazing((3 * direction(z, tangent, 1 / (1 + area)) + angle(z, s)) / 4);
 }
 
 /// The same for an interface: two parts `direction`, one angle.
 template <class R>
 inline R dense_direction(R z, R s, R width) {
-  return towards_grazing(
-      (2 * direction(z, s, width) + std::atan2(z, s) * (2 / std::numbers::pi_v<R>)) / 3);
+  return towards_grazing((2 * direction(z, s, width) + angle(z, s)) / 3);
 }
 
 /// The same where the index falls, `eta` < 1. A part of it climbs within `width` of the critical
@@ -133,8 +161,8 @@ inline R along_ridge(R z, R s, R alpha, R zc, R eta) {
   const R w = width(alpha), scale = R(1.5) * w, share = R(1.3) * (1 - alpha) * (1 - alpha);
   const auto climb = [scale](R sine) { return sine / std::sqrt(sine * sine + scale * scale); };
   const R from = climb(-zc), ridge = (climb(z * eta - s * zc) - from) / (climb(eta) - from);
-  const R angle = std::atan2(z, s) * (2 / std::numbers::pi_v<R>);
-  return (towards_grazing(direction(z, s, w)) + R(0.7) * towards_grazing(angle) + share * ridge) /
+  return (towards_grazing(direction(z, s, w)) + R(0.7) * towards_grazing(angle(z, s)) +
+          share * ridge) /
          (R(1.7) + share);
 }
 
@@ -158,6 +186,12 @@ inline R interface_direction(R z, R s, R alpha, R eta) {
 template <class R>
 inline R index(R eta) {
   return std::sqrt(std::sqrt(std::abs(eta - 1) / (eta + 1)));
+}
+
+/// The same of stretched facets, where indices above 4 and below 1/4 count as these.
+template <class R>
+inline R bent_index(R eta) {
+  return index(eta) / std::sqrt(std::sqrt(R(0.6)));
 }
 
 template <class R>
@@ -225,34 +259,104 @@ struct FacetLoss {
   static R clamp01(R x) { return x > 0 ? std::min(x, R(1)) : R(0); }
 };
 
-/// The loss of a rough dielectric of relative index `eta` (far side over near side).
+/// Stretched facets of an interface, as a table lays them out: x is along the wider axis.
+template <class R>
+struct StretchedInterface {
+  R wide, narrow, x, y, z;
+
+  R root() const { return std::sqrt(wide * narrow); }
+  R tangent() const { return std::sqrt(wide * wide * x * x + narrow * narrow * y * y); }
+  /// The width of round facets that are as wide along the direction, where it is grazing, and as
+  /// wide on the whole where it is the normal; at most 1.
+  R like() const {
+    const R t = tangent();
+    return limited(std::sqrt(t * t + wide * narrow * z * z));
+  }
+  /// What losses are proportional to where facets are nearly flat.
+  R scale() const {
+    const R t = tangent(), t2 = t * t, z2 = z * z;
+    return (t2 + wide * narrow * z2) / (t2 + z2);
+  }
+  R azimuth() const { return axes::azimuth(std::sqrt(wide) * x, std::sqrt(narrow) * y); }
+  R direction(R eta) const {
+    const R s = std::sqrt(x * x + y * y);
+    return axes::interface_direction(z, s, limited(s > 0 ? tangent() / s : root()), eta);
+  }
+
+ private:
+  R limited(R width) const { return width / (1 + (width - root())); }
+};
+
+/// The loss of a rough dielectric of relative index `eta` (far side over near side). `ax`, `ay` > 0
+/// and alike where the tables know no stretched facets.
 template <class R>
 struct InterfaceLoss {
-  R alpha, eta;
-  const InterfaceTables* tables = &kGgxInterface;
+  const InterfaceTables* tables;
+  R ax, ay, eta;
 
   /// l(w) in [0, 1].
   R at(Vec3<R> w) const {
-    using namespace axes;
     const R z = std::abs(w.z), s = std::sqrt(w.x * w.x + w.y * w.y);
-    const int falls = eta < 1, directions = kInterfaceDirection[falls], indices = kIndex[falls];
+    if (ax == ay) return limited(round(ax, z, s), R(0));
+    const StretchedInterface<R> f = stretched({w.x, w.y, z});
+    const R like = round(f.like(), z, s);
+    return limited(like + f.scale() * difference(f), like / 20);  // in truth no less than a twelfth
+  }
+
+  /// m in (0, 1). Its table rings next to alpha = 0 for indices below 1/4: see `least_mean`.
+  R mean() const {
+    using namespace axes;
+    const R alpha = ax == ay ? ax : std::sqrt(ax * ay);
+    const auto a = Stencil<R>::at(log_alpha(alpha), kInterfaceMean);
+    const auto n = Stencil<R>::at(index(eta), kIndex[falls()]);
+    const R mean = mean_unit(alpha * alpha) *
+                   std::max(R(tables->least_mean), interpolate(tables->mean[falls()], a,
+                                                               coefficients(kIndex[falls()]), n));
+    return ax == ay ? mean : mean * mean_ratio(alpha);
+  }
+
+  StretchedInterface<R> stretched(Vec3<R> w) const {
+    return ax < ay ? StretchedInterface<R>{ay, ax, w.y, w.x, w.z}
+                   : StretchedInterface<R>{ax, ay, w.x, w.y, w.z};
+  }
+
+  /// l of facets of one width along both axes, as the table has it.
+  R round(R alpha, R z, R s) const {
+    using namespace axes;
+    const int directions = kInterfaceDirection[falls()], indices = kIndex[falls()];
     const auto d = Stencil<R>::at(interface_direction(z, s, alpha, eta), directions);
     const auto a = Stencil<R>::at(interface_alpha(alpha), kInterfaceAlpha);
     const auto n = Stencil<R>::at(index(eta), indices);
     const int n1 = coefficients(directions), n0 = n1 * coefficients(indices);
-    const R l = interpolate(tables->loss[falls], a, n0, n, n1, d);
-    return l > 0 ? std::min(l, R(1)) : R(0);
+    return interpolate(tables->loss[falls()], a, n0, n, n1, d);
   }
 
-  /// m in (0, 1). Its table rings next to alpha = 0 for indices below 1/4; in truth no mean is less
-  /// than 0.15 of the unit.
-  R mean() const {
+ private:
+  static R limited(R l, R least) { return l > least ? std::min(l, R(1)) : std::max(least, R(0)); }
+  int falls() const { return eta < 1; }
+
+  /// Of l from that of round facets, over its scale.
+  R difference(const StretchedInterface<R>& f) const {
     using namespace axes;
-    const auto a = Stencil<R>::at(log_alpha(alpha), kInterfaceMean);
-    const auto n = Stencil<R>::at(index(eta), kIndex[eta < 1]);
-    return mean_unit(alpha * alpha) *
-           std::max(R(0.1),
-                    interpolate(tables->mean[eta < 1], a, coefficients(kIndex[eta < 1]), n));
+    const int k = falls();
+    const auto a = Stencil<R>::at(bent_alpha(f.root()), kBentAlpha[k]);
+    const auto q = Stencil<R>::at(bent_aspect(f.wide / f.narrow), kBentAspect[k]);
+    const auto c = Stencil<R>::at(f.azimuth(), kBentAzimuth[k]);
+    const auto n = Stencil<R>::at(bent_index(eta), kBentIndex[k]);
+    const auto d = Stencil<R>::at(f.direction(eta), kBentDirection[k]);
+    const int n3 = coefficients(kBentDirection[k]), n2 = n3 * coefficients(kBentIndex[k]),
+              n1 = n2 * coefficients(kBentAzimuth[k]), n0 = n1 * coefficients(kBentAspect[k]);
+    return interpolate(tables->stretched[k], a, n0, q, n1, c, n2, n, n3, d);
+  }
+
+  R mean_ratio(R alpha) const {
+    using namespace axes;
+    const R quotient = std::max(ax, ay) / std::min(ax, ay);
+    const auto a = Stencil<R>::at(bent_mean_alpha(alpha), kBentMeanAlpha);
+    const auto q = Stencil<R>::at(bent_aspect(quotient), kBentMeanAspect);
+    const auto n = Stencil<R>::at(bent_index(eta), kBentMeanIndex);
+    const int n1 = coefficients(kBentMeanIndex), n0 = n1 * coefficients(kBentMeanAspect);
+    return interpolate(tables->stretched_mean[falls()], a, n0, q, n1, n);
   }
 };
 

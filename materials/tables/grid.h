@@ -100,11 +100,12 @@ struct Grid {
   }
 };
 
-/// Writes `const float name[]`.
-inline void write_numbers(std::FILE* to, const std::string& name, const std::vector<float>& table) {
+/// Writes `const float name[]`, with `digits` behind the point of the first.
+inline void write_numbers(std::FILE* to, const std::string& name, const std::vector<float>& table,
+                          int digits = 8) {
   std::fprintf(to, "const float %s[] = {", name.c_str());
   for (std::size_t i = 0; i < table.size(); ++i)
-    std::fprintf(to, "%s%.8eF,", i % 8 ? "" : "\n", double(table[i]));
+    std::fprintf(to, "%s%.*e,", i % 8 ? "" : "\n", digits, double(table[i]));
   std::fprintf(to, "\n};\n");
 }
 

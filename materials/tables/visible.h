@@ -22,19 +22,23 @@ double integrate_crowded(const F& f, double a, double b) {
       1);
 }
 
-/// Integral of f over [a, b], cut where one of `edges(x)` changes its sign.
-template <class F, class Edges>
+/// Integral of f over [a, b], cut where one of `edges(x)` changes its sign, `Points` to a part. Two
+/// changes within one of `Scan` steps are not seen: steps are even, or finer towards both ends.
+template <int Points, int Scan, bool Crowded, class F, class Edges>
 double integrate_between_edges(const F& f, const Edges& edges, double a, double b) {
-  constexpr int scan = 8;
+  const auto place = [&](int i) {
+    const double s = double(i) / Scan;
+    return Crowded ? a + (b - a) * s * s * (3 - 2 * s) : a + (b - a) * i / Scan;
+  };
   std::vector<double> cuts{a};
   auto before = edges(a);
-  for (int i = 1; i <= scan; ++i) {
-    const double x = a + (b - a) * i / scan;
+  for (int i = 1; i <= Scan; ++i) {
+    const double x = place(i);
     const auto here = edges(x);
     for (std::size_t k = 0; k < here.size(); ++k) {
       if ((here[k] > 0) == (before[k] > 0)) continue;
       // Regula falsi; an end that stays counts half (the Illinois rule).
-      double lo = a + (b - a) * (i - 1) / scan, hi = x, at_lo = before[k], at_hi = here[k];
+      double lo = place(i - 1), hi = x, at_lo = before[k], at_hi = here[k];
       double cut = (lo + hi) / 2;
       for (int n = 0; n < 10 && hi > lo; ++n) {
         cut = (lo * at_hi - hi * at_lo) / (at_hi - at_lo);
@@ -54,7 +58,7 @@ double integrate_between_edges(const F& f, const Edges& edges, double a, double 
   std::sort(cuts.begin(), cuts.end());
   double sum = 0;
   for (std::size_t i = 1; i < cuts.size(); ++i)
-    if (cuts[i] > cuts[i - 1]) sum += integrate_crowded<16>(f, cuts[i - 1], cuts[i]);
+    if (cuts[i] > cuts[i - 1]) sum += integrate_crowded<Points>(f, cuts[i - 1], cuts[i]);
   return sum;
 }
 
@@ -73,7 +77,7 @@ double turn_mean(const Ray& ray, double start, int angles, bool half) {
 
 /// Mean of f(h) over the normals of `ggx` that `wo` sees; `edges(h)` change sign where f is not
 /// smooth. As Ggx::sample_visible: `angles` of u1, for each of them all u2.
-template <class F, class Edges>
+template <int Points = 16, class F, class Edges>
 double visible_mean(const Ggx<double>& ggx, Vec3d wo, const F& f, const Edges& edges, int angles) {
   const Vec3d w = normalize(Vec3d{ggx.ax * wo.x, ggx.ay * wo.y, wo.z});
   const auto ray = [&](double c, double s) {
@@ -83,14 +87,15 @@ double visible_mean(const Ggx<double>& ggx, Vec3d wo, const F& f, const Edges& e
       const double r = std::sqrt(std::max(0.0, low * (1 - w.z + rise)));
       return normalize(Vec3d{ggx.ax * (r * c + w.x), ggx.ay * (r * s + w.y), rise});
     };
-    return integrate_between_edges([&](double x) { return 4 * x * x * x * f(normal(x)); },
-                                   [&](double x) { return edges(normal(x)); }, 1e-3, 1);
+    return integrate_between_edges<Points, 8, false>(
+        [&](double x) { return 4 * x * x * x * f(normal(x)); },
+        [&](double x) { return edges(normal(x)); }, 1e-3, 1);
   };
   return turn_mean(ray, std::atan2(w.y, w.x), angles, ggx.ax == ggx.ay);
 }
 
 /// The same of Beckmann's, over slopes as polar coordinates.
-template <class F, class Edges>
+template <int Points = 16, class F, class Edges>
 double visible_mean(const Beckmann<double>& facets, Vec3d wo, const F& f, const Edges& edges,
                     int angles) {
   const double t = facets.tangent(wo), l = std::hypot(t, wo.z), c = wo.z / l, s = t / l;
@@ -102,7 +107,8 @@ double visible_mean(const Beckmann<double>& facets, Vec3d wo, const F& f, const 
       return normalize(Vec3d{-facets.ax * u * r, -facets.ay * v * r, 1});
     };
     const double end = s * x * reach > c ? c / (s * x) : reach;  // facets that face away
-    return integrate_between_edges(
+    // Total reflection begins next to the facets that only just face the direction.
+    return integrate_between_edges<Points, 12, true>(
         [&](double r) { return 2 * r * std::exp(-r * r) * (c - s * x * r) * f(normal(r)); },
         [&](double r) { return edges(normal(r)); }, 0, end);
   };

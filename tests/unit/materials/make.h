@@ -107,8 +107,15 @@ inline Material interface(Lobe lobe, Value ior, double number, Value r, Value t)
   m.numbers.insert(m.numbers.end(), t.s.v.begin(), t.s.v.end());
   return m;
 }
-inline Material dielectric(Value ior, double roughness = 0, Value r = 1, Value t = 1) {
-  return interface(Lobe::Dielectric, ior, roughness, r, t);
+inline Material dielectric(Value ior, double roughness = 0, Value r = 1, Value t = 1,
+                           double anisotropy = 0) {
+  Material m = interface(Lobe::Dielectric, ior, roughness, r, t);
+  m.tree.nodes.back().params.resize(5);
+  m.numbers.push_back(anisotropy);
+  return m;
+}
+inline Material beckmann_dielectric(Value ior, double roughness = 0, Value r = 1, Value t = 1) {
+  return interface(Lobe::BeckmannDielectric, ior, roughness, r, t);
 }
 inline Material phong_glass(Value ior, double n, Value r = 1, Value t = 1) {
   return interface(Lobe::PhongGlass, ior, n, r, t);

@@ -32,7 +32,7 @@ TEST_CASE("formals are read off the signature") {
     return std::string(f.kinds, f.count);
   };
   CHECK(kinds(Lobe::Conductor) == "ssrr");
-  CHECK(kinds(Lobe::Dielectric) == "srss");
+  CHECK(kinds(Lobe::Dielectric) == "srssr");
   CHECK(kinds(Lobe::Mix) == "mms");
   CHECK(kinds(Lobe::Isotropic) == "");
   CHECK(kinds(Lobe::Scale) == "ms");
@@ -45,8 +45,8 @@ TEST_CASE("layout offsets and flags") {
   REQUIRE(l.nodes().size() == 3);
   CHECK(l.nodes()[0].first_param == 0);
   CHECK(l.nodes()[1].first_param == kWavelengths + 1);
-  CHECK(l.nodes()[2].first_param == 4 * kWavelengths + 2);
-  CHECK(l.param_count() == 5 * kWavelengths + 2);
+  CHECK(l.nodes()[2].first_param == 4 * kWavelengths + 3);
+  CHECK(l.param_count() == 5 * kWavelengths + 3);
   CHECK(l.param_count() == int(m.numbers.size()));
   CHECK(l.nodes()[2].children[1] == 1);
   CHECK(l.has_specular());

@@ -105,8 +105,8 @@ TEST_CASE("below 8 samples the error is that of independent samples: not too low
 TEST_CASE("pictures: stated and real error agree") {
   HandProgram h;
   h.matte("matte", 0.5);
-  h.surface("glass", HandProgram::lobe(Lobe::Dielectric,
-                                       {h.spectrum(1.5), h.real(0), h.spectrum(1), h.spectrum(1)}));
+  h.surface("glass", HandProgram::lobe(Lobe::Dielectric, {h.spectrum(1.5), h.real(0), h.spectrum(1),
+                                                          h.spectrum(1), h.real(0)}));
   for (const char* name : {"matte", "glass"}) {
     if (kSanitized && name[0] == 'g') break;
     CAPTURE(name);

@@ -89,7 +89,7 @@ TEST_CASE("layers hold what the camera sees first: a ball, a lamp, nothing") {
 TEST_CASE("layers are the same on any number of threads") {
   HandProgram h;
   h.surface("ball", HandProgram::lobe(Lobe::Dielectric, {h.spectrum(1.5), h.real(0.2),
-                                                         h.spectrum(1), h.spectrum(1)}));
+                                                         h.spectrum(1), h.spectrum(1), h.real(0)}));
   h.volume("ball", 2, 0.1);
   const auto one = render_layers(h, 1).layers, three = render_layers(h, 3).layers;
   CHECK(one->albedo == three->albedo);
@@ -151,8 +151,8 @@ TEST_CASE("the albedo of a surface that lies in something is of its index over t
   // vacuum it would lose what water reflects, 4 % over this picture.
   HandProgram h;
   const auto glass = [&](double reflected) {
-    return HandProgram::lobe(Lobe::Dielectric,
-                             {h.spectrum(1.33), h.real(0), h.spectrum(reflected), h.spectrum(1)});
+    return HandProgram::lobe(Lobe::Dielectric, {h.spectrum(1.33), h.real(0), h.spectrum(reflected),
+                                                h.spectrum(1), h.real(0)});
   };
   h.surface("water", glass(1));
   h.surface("glass", glass(0));
