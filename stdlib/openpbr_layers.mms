@@ -27,17 +27,30 @@ real openpbr_index_below(real ior, weight, coat_ior, coat_weight)
     n    = select over, if over >= 1.0; 1.0 / max(over, 1e-3) otherwise; end;
     return openpbr_index(n, weight);
 
+/// The roughness and the anisotropy of the library's facets that are as wide along both axes as
+/// OpenPBR says. `anisotropy` is in [0, 1], up to 0.9 exact.
+/// >>> openpbr_stretched(0.3, 0.0).roughness
+/// 0.3
+/// >>> openpbr_stretched(0.3, 0.45).anisotropy
+/// 0.5
+openpbr_width typeid struct
+    real roughness, anisotropy;
+end
+openpbr_width openpbr_stretched(real roughness, anisotropy)
+    broad = 1.0 - clamp(anisotropy, 0.0, 0.999);
+    keep  = sqrt(sqrt(2.0 * broad / (1.0 + broad * broad)));
+    return openpbr_width(roughness * keep, clamp(anisotropy / 0.9, 0.0, 1.0));
+
 /// A mirror that is as rough as OpenPBR says, without Fresnel's factor: `microfacet` where it is
 /// anisotropic, else `glossy` of the same brightness at its middle, as only that keeps all energy
-/// over a base (`fresnel_mix`). `anisotropy` is in [0, 1], up to 0.9 exact.
+/// over a base (`fresnel_mix`).
 /// >>> openpbr_gloss(1.0, 0.3, 0.0)
 material openpbr_gloss(spectrum colour, real roughness, anisotropy)
     alpha = max(roughness * roughness, 1e-4);
-    broad = 1.0 - clamp(anisotropy, 0.0, 0.999);
-    keep  = sqrt(sqrt(2.0 * broad / (1.0 + broad * broad)));
+    width = openpbr_stretched(roughness, anisotropy);
     return select
         glossy(colour, max(0.5 / (alpha * alpha) - 0.5, 0.0)), if anisotropy <= 0.0;
-        microfacet(colour, roughness * keep, min(anisotropy / 0.9, 1.0)) otherwise;
+        microfacet(colour, width.roughness, width.anisotropy) otherwise;
     end;
 
 /// How much of the colour under a coat is left by light that goes to and fro between both: 1 for
@@ -75,12 +88,12 @@ material openpbr_metal(
     root  = sqrt(r);
     n     = g * (1.0 - r) / (1.0 + r) + (1.0 - g) * (1.0 + root) / (1.0 - root);
     k     = sqrt(max((r * (n + 1.0)^2 - (n - 1.0)^2) / (1.0 - r), 0.0));
-    broad = 1.0 - clamp(anisotropy, 0.0, 0.999);
-    rough = roughness * sqrt(sqrt(2.0 * broad / (1.0 + broad * broad)));
-    along = min(anisotropy / 0.9, 1.0);
+    width = openpbr_stretched(roughness, anisotropy);
     return mix(
-        coloured_metal(colour, edge, rough, along),
-        film_conductor(n, k, film_ior, thickness, $wavelength, rough, along),
+        coloured_metal(colour, edge, width.roughness, width.anisotropy),
+        film_conductor(
+            n, k, film_ior, thickness, $wavelength, width.roughness, width.anisotropy
+        ),
         saturate(film_weight)
     );
 
@@ -170,8 +183,8 @@ openpbr_medium openpbr_inside(
 /// `openpbr_emission`, and opacity the output `scattering` of the surface.
 ///
 /// The specular part of an opaque base is a `glossy` (`openpbr_gloss`), coats and weights are
-/// indices (`openpbr_index`), fuzz is a `layer` of `sheen`; rough glass has no anisotropy, a film on
-/// it is smooth, and one on an opaque base has the colours of normal incidence everywhere.
+/// indices (`openpbr_index`), fuzz is a `layer` of `sheen`; a film on
+/// rough glass is smooth, and one on an opaque base has the colours of normal incidence everywhere.
 /// >>> openpbr(base_color = 0.5, base_metalness = 1.0)
 /// >>> openpbr(base_color = rgb(0.6, 0.05, 0.02), coat_weight = 1.0)
 material openpbr(
@@ -226,8 +239,9 @@ material openpbr(
             if transmission_dispersion_scale > 0.0;
         spectrum(specular_ior) otherwise;
     end;
+    width = openpbr_stretched(specular_roughness, specular_roughness_anisotropy);
     clear = mix(
-        dielectric(bent, specular_roughness, specular_color, tint),
+        dielectric(bent, width.roughness, specular_color, tint, width.anisotropy),
         film_dielectric(bent, thin_film_ior, film, $wavelength),
         saturate(thin_film_weight)
     );
