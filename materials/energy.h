@@ -57,8 +57,8 @@ inline constexpr int kStretchedMean = 65, kMeanAspect = 12;
 inline constexpr int kInterfaceAlpha = 19, kIndex[] = {29, 37}, kInterfaceDirection[] = {61, 75};
 inline constexpr int kInterfaceMean = 65;
 /// Bent: of stretched facets of an interface.
-inline constexpr int kBentAlpha[] = {6, 7}, kBentAspect[] = {5, 6}, kBentAzimuth[] = {11, 16};
-inline constexpr int kBentIndex[] = {8, 10}, kBentDirection[] = {21, 15};
+inline constexpr int kBentAlpha[] = {6, 7}, kBentAspect[] = {5, 6}, kBentAzimuth[] = {11, 14};
+inline constexpr int kBentIndex[] = {8, 9}, kBentDirection[] = {21, 18};
 inline constexpr int kBentMeanAlpha = 17, kBentMeanAspect = 6, kBentMeanIndex = 12;
 /// Roots of the least alpha of stretched facets; below, all is as there, but for its scale.
 inline constexpr double kLeastBentRoot = 0.1, kLeastBentFourthRoot = 0.15;
@@ -272,10 +272,11 @@ struct StretchedInterface {
     const R t = tangent();
     return limited(std::sqrt(t * t + wide * narrow * z * z));
   }
-  /// What losses are proportional to where facets are nearly flat.
+  /// What differences of losses are measured in: they fall with the area of a slope where facets
+  /// are nearly flat. More there, so that the spline does not swing next to grazing.
   R scale() const {
     const R t = tangent(), t2 = t * t, z2 = z * z;
-    return (t2 + wide * narrow * z2) / (t2 + z2);
+    return (t2 + 16 * wide * narrow * z2) / (t2 + z2);
   }
   R azimuth() const { return axes::azimuth(std::sqrt(wide) * x, std::sqrt(narrow) * y); }
   R direction(R eta) const {
