@@ -20,6 +20,21 @@ using materials::Phase;
 /// Scattering events before Russian roulette begins.
 constexpr int kFirstRoulette = 3;
 
+/// Vertices at which a path divides at most: where it meets glass, where it comes to the other
+/// side, and where what was mirrored there comes out.
+constexpr int kDivisions = 3;
+
+/// Directions in which a path goes on from its first vertex: the ray that came there and the light
+/// that was drawn cost more than another direction.
+constexpr int kDirectionsOfFirst = 2;
+
+/// Scattering events up to which each of few lights is drawn.
+constexpr int kBouncesOfEachLight = 2;
+
+/// Directions that are drawn towards each light there unless the surface is matte: where a glossy
+/// one mirrors a lamp about as wide as its lobe they differ most.
+constexpr int kDrawsOfUneven = 4;
+
 /// Paths are given up below this mean contribution only: in glass of index n radiance is 1 / n^2 of
 /// what it is again outside, so a path that carries a third may have lost nothing.
 constexpr float kSafeContribution = 1.0f / 3;
@@ -50,24 +65,31 @@ const materials::Layout& isotropic_layout() {
 
 }  // namespace
 
+/// A direction and what is scattered from there.
+struct Integrator::Sampled {
+  Vec3d wi;
+  Spectrumf f, pdf;
+  bool specular = false;
+};
+
 /// Scattering at a vertex with one face for surfaces and volumes. Values hold the cosine.
 struct Integrator::Scatterer {
   const materials::Layout& layout;
   const float* params;
   bool medium = false;
   Frame<double> frame;
-
-  struct Sampled {
-    Vec3d wi;
-    Spectrumf f, pdf;
-    bool specular = false;
-  };
+  int directions = 1;  ///< that are drawn: densities are of all of them
 
   /// Normal of the `Receiver` there. What `consistent` leaves out comes from below the horizon.
   Vec3f receiver(const ScriptPoint& p) const {
     if (medium || layout.transmits()) return {};
     const Vec3d n = p.surface.geometric_normal;
     return Vec3f(dot(n, p.view) < 0 ? -n : n);
+  }
+
+  /// Whether no direction is much likelier than others.
+  bool even() const {
+    return layout.nodes().size() == 1 && layout.nodes()[0].lobe == materials::Lobe::Matte;
   }
 
   bool can_connect() const {
@@ -78,27 +100,47 @@ struct Integrator::Scatterer {
     if (medium) {
       const Phase<float> phase(layout, params);
       const auto lobes = phase.evaluate(Vec3f(p.view), Vec3f(wi));
-      return {wi, lobes.f, lobes.pdf};
+      return {wi, lobes.f, lobes.pdf * float(directions)};
     }
     if (!consistent(p.surface, frame, wi)) return {wi, {}, {}};
     const Bsdf<float> bsdf(layout, params);
     const Vec3f wo(frame.to_local(p.view)), local(frame.to_local(wi));
     const auto lobes = bsdf.evaluate(wo, local, Mode::Radiance);
-    return {wi, lobes.f * std::abs(local.z), lobes.pdf};
+    return {wi, lobes.f * std::abs(local.z), lobes.pdf * float(directions)};
   }
 
   std::optional<Sampled> sample(const ScriptPoint& p, float u_lobe, float u, float v) const {
     if (medium) {
       const auto s = Phase<float>(layout, params).sample(Vec3f(p.view), u_lobe, u, v);
       if (!s) return {};
-      return Sampled{Vec3d(s->wi), s->f, s->pdf};
+      return Sampled{Vec3d(s->wi), s->f, s->pdf * float(directions)};
     }
     const Vec3f wo(frame.to_local(p.view));
     const auto s = Bsdf<float>(layout, params).sample(wo, u_lobe, u, v, Mode::Radiance);
     if (!s) return {};
     const Vec3d wi = normalize(frame.to_world(Vec3d(s->wi)));
     if (!consistent(p.surface, frame, wi)) return {};
-    return Sampled{wi, s->f * std::abs(s->wi.z), s->pdf, s->specular};
+    return Sampled{wi, s->f * std::abs(s->wi.z), s->pdf * float(directions), s->specular};
+  }
+
+  /// Whether light is only mirrored and bent here, each in one direction.
+  bool divides() const {
+    return layout.nodes().size() == 1 && layout.transmits() && !can_connect();
+  }
+
+  /// Where that is so, all ways on, at most two, as if none were a matter of chance: a wavelength
+  /// as the hero would have gone every way that it can go.
+  int all_ways(const ScriptPoint& p, std::array<Sampled, 2>& ways) const {
+    constexpr float kLast = 1 - 0x1p-24f;
+    int count = 0;
+    for (const float u_lobe : {0.0f, kLast}) {
+      const auto s = sample(p, u_lobe, 0, 0);
+      if (!s || (count > 0 && dot(s->wi, ways[0].wi) == dot(ways[0].wi, ways[0].wi))) continue;
+      ways[count] = *s;
+      ways[count++].pdf =
+          Spectrumf::map([](float chance) { return chance > 0 ? 1.0f : 0.0f; }, s->pdf);
+    }
+    return count;
   }
 };
 
@@ -110,14 +152,16 @@ Integrator::Integrator(const World& world)
 
 void Integrator::trace(std::span<const PixelSample> samples, std::span<FilmSample> stream) {
   paths_.clear();
-  paths_.reserve(samples.size());  // views point into it
   views_.clear();
   now_.clear();
+  std::size_t started = 0;
   const std::size_t together = world_.compiled.executable() ? kTogether : kTogetherUnasked;
   for (;;) {
-    while (paths_.size() < samples.size() && now_.size() < together)
-      start(samples[paths_.size()], stream[paths_.size()]);
+    make_room(together);
+    for (; started < samples.size() && now_.size() < together; ++started)
+      start(samples[started], int(started), stream[started]);
     if (now_.empty()) break;
+    make_room(now_.size());  // each may divide
     flights_.fly(now_, views_, kLeftFlying);
     next_.clear();
     shadows_.clear();
@@ -131,14 +175,33 @@ void Integrator::trace(std::span<const PixelSample> samples, std::span<FilmSampl
     send_shadow_rays();
     std::swap(now_, next_);
   }
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    stream[i].xyz = paths_[i].cluster.xyz(paths_[i].radiance + paths_[i].lit);
+  // Branches come after what they left, so each is whole when it is added.
+  for (std::size_t i = paths_.size(); i-- > 0;) {
+    const Path& p = paths_[i];
+    if (p.parent >= 0)
+      paths_[p.parent].lit += p.radiance + p.lit;
+    else
+      stream[p.sample].xyz = p.cluster.xyz(p.radiance + p.lit);
+  }
+}
+
+/// For so many more paths, whose places in memory are known to others until the next call.
+void Integrator::make_room(std::size_t more) {
+  if (paths_.size() + more <= paths_.capacity()) return;
+  paths_.reserve(2 * (paths_.size() + more));
+  views_.clear();
+  for (Path& p : paths_) views_.push_back(view(p));
+}
+
+PathView Integrator::view(Path& p) const {
+  return {&p.cluster, &p.sampler, &p.radiance, world_.camera.pixel_angle()};
 }
 
 /// Draws wavelengths and the camera ray of a new path.
-void Integrator::start(const PixelSample& s, FilmSample& point) {
+void Integrator::start(const PixelSample& s, int sample, FilmSample& point) {
   const int i = int(paths_.size());
   Path& p = paths_.emplace_back();
+  p.sample = sample;
   p.sampler = Sampler(world_.seed, s.x, s.y, std::uint64_t(s.sample), world_.generator);
   const std::array<float, 4> u = p.sampler.first();
   const int wavelengths = wavelengths_of(world_.estimator);
@@ -147,7 +210,7 @@ void Integrator::start(const PixelSample& s, FilmSample& point) {
   point.x = s.x + double(u[kFilmX]);
   point.y = s.y + double(u[kFilmY]);
   point.number = std::uint32_t(s.sample);
-  views_.push_back({&p.cluster, &p.sampler, &p.radiance, world_.camera.pixel_angle()});
+  views_.push_back(view(p));
   now_.push_back(camera_flight(world_, i, p.sampler, point.x, point.y));
 }
 
@@ -271,58 +334,109 @@ void Integrator::follow(Flight& f, const Vertex& v, Vec3d direction) const {
   f.forget_media();
 }
 
-/// Lights a vertex, and sends the path on in a direction drawn for the hero.
-void Integrator::scatter(const Vertex& v, const Scatterer& s) {
+/// Lights a vertex, and sends the path on.
+void Integrator::scatter(const Vertex& v, Scatterer s) {
   Path& p = paths_[v.from->path];
-  const int bounce = p.depth++;
-  if (p.depth > world_.max_depth) return;
-  const bool each_light = bounce == 0 && world_.each_light;
-  if (world_.lights.any() && s.can_connect()) connect(v, s, each_light);
+  if (++p.depth > world_.max_depth) return;
+  if (s.divides() && p.specular++ < kDivisions) return go_all_ways(v, s);
+  int draws = 0;
+  if (s.can_connect()) {
+    if (p.depth == 1 && !s.medium) s.directions = kDirectionsOfFirst;
+    if (p.depth <= kBouncesOfEachLight && world_.each_light) draws = s.even() ? 1 : kDrawsOfUneven;
+    if (world_.lights.any()) connect(v, s, draws);
+  }
+  go_on(v, s, draws);
+}
 
-  const auto pair = [&](BouncePair b) { return p.sampler.pair(pair_of_bounce(bounce, b)); };
-  const auto [direction_u, direction_v] = pair(kDirection);
-  const auto [part, roulette] = bounce > 0 ? pair(kChoices) : std::array<float, 2>{p.first_part, 0};
-  const auto sampled = s.sample(v.point, part, direction_u, direction_v);
-  if (!sampled) return;
+/// Sends a path on from where it is only mirrored and bent, both ways at once: a lamp may be seen
+/// by the less likely one.
+void Integrator::go_all_ways(const Vertex& v, const Scatterer& s) {
+  std::array<Sampled, 2> ways;
+  const int count = s.all_ways(v.point, ways);
+  for (int i = count; i-- > 0;) leave(v, s, ways[i], i > 0 ? divide(v.from->path) : v.from->path);
+}
+
+/// Sends a path on in directions drawn for the hero.
+void Integrator::go_on(const Vertex& v, const Scatterer& s, int draws) {
+  const Path& p = paths_[v.from->path];
+  const int bounce = p.depth - 1;
+  const auto [part, roulette] = bounce > 0 ? p.sampler.pair(pair_of_bounce(bounce, kChoices))
+                                           : std::array{p.first_part, 0.0f};
+  for (int i = 0; i < s.directions; ++i) {
+    const auto [direction_u, direction_v] =
+        p.sampler.pair(pair_of_bounce(bounce, kDirection), i, s.directions);
+    const float turned = part + float(i) / float(s.directions);
+    const auto sampled =
+        s.sample(v.point, turned < 1 ? turned : turned - 1, direction_u, direction_v);
+    if (!sampled) continue;
+    Flight* f = leave(v, s, *sampled, i > 0 ? divide(v.from->path) : v.from->path);
+    if (!f) continue;
+    f->draws = draws;
+    // Of ways that are followed together some carry next to nothing.
+    if (!survives(f->carried, p.specular > 0 ? kFirstRoulette : p.depth, roulette))
+      next_.pop_back();
+  }
+}
+
+/// A path like `path` from here on, with numbers of its own, whose light is added to that of
+/// `path`.
+int Integrator::divide(int path) {
+  Path& p = paths_.emplace_back(paths_[path]);
+  p.parent = path;
+  p.sampler = p.sampler.branch(p.depth);
+  p.radiance = p.lit = Spectrumf(0.0f);
+  views_.push_back(view(p));
+  return int(paths_.size()) - 1;
+}
+
+/// Sends a path on from a vertex; null if it carries nothing.
+Flight* Integrator::leave(const Vertex& v, const Scatterer& s, const Sampled& sampled, int path) {
   Flight f = *v.from;
+  f.path = path;
   // The same vertex lit by a light drawn with density 1 has the density of the path up to here.
-  f.carried.light_pdf = sampled->specular ? Spectrumf(0.0f) : v.from->carried.pdf;
-  f.carried.happened(sampled->f, sampled->pdf);
+  f.carried.light_pdf = sampled.specular ? Spectrumf(0.0f) : v.from->carried.pdf;
+  f.carried.happened(sampled.f, sampled.pdf);
   f.carried.rescale();
-  if (!survives(f.carried, p.depth, roulette)) return;
+  if (!(f.carried.beta.sum() > 0)) return nullptr;
   if (s.medium) {
     f.origin = Vec3f(v.point.surface.position);
   } else {
-    f.origin = ray_origin(v.point.surface, sampled->wi);
-    follow(f, v, sampled->wi);
+    f.origin = ray_origin(v.point.surface, sampled.wi);
+    follow(f, v, sampled.wi);
   }
-  f.direction = Vec3f(sampled->wi);
+  f.direction = Vec3f(sampled.wi);
   f.receiver = s.receiver(v.point);
-  f.each_light = each_light;
+  f.draws = 0;
   f.end = End::Flying;
   f.emission_seen = false;
   f.t = 0;
   f.t_max = std::numeric_limits<float>::infinity();
   f.step = 0;
-  f.stream = 2 * std::uint32_t(p.depth);
+  f.stream = 2 * std::uint32_t(paths_[path].depth);
   next_.push_back(f);
+  return &next_.back();
 }
 
-/// Draws light for a vertex: of one of the lights, or of each.
-void Integrator::connect(const Vertex& v, const Scatterer& s, bool each_light) {
+/// Draws light for a vertex.
+void Integrator::connect(const Vertex& v, const Scatterer& s, int draws) {
   const Path& p = paths_[v.from->path];
   const Vec3d from = v.point.surface.position;
-  const int pair = pair_of_bounce(p.depth - 1, kLight);
+  const int bounce = p.depth - 1, pair = pair_of_bounce(bounce, kLight);
   const Receiver receiver(from, Vec3d(s.receiver(v.point)));
-  if (!each_light) {
+  if (draws == 0) {
     const auto [light_u, light_v] = p.sampler.pair(pair);
     connect(v, s, world_.lights.sample(receiver, light_u, light_v));
     return;
   }
   for (int i = 0; i < world_.lights.count(); ++i) {
     if (world_.lights.below_horizon(i, receiver)) continue;
-    const auto [light_u, light_v] = p.sampler.pair(i == 0 ? pair : pair_of_light(i));
-    connect(v, s, world_.lights.sample_one(i, from, light_u, light_v));
+    for (int draw = 0; draw < draws; ++draw) {
+      const auto [light_u, light_v] =
+          p.sampler.pair(i == 0 ? pair : pair_of_light(bounce, i), draw, draws);
+      LightSample light = world_.lights.sample_one(i, from, light_u, light_v);
+      light.pdf *= draws;
+      connect(v, s, light);
+    }
   }
 }
 
@@ -334,7 +448,7 @@ void Integrator::connect(const Vertex& v, const Scatterer& s, const LightSample&
   Flight f = *v.from;
   if (!s.medium) follow(f, v, light.direction);
   if (world_.sealed_in(f.media)) return;
-  const Scatterer::Sampled towards = s.evaluate(v.point, light.direction);
+  const Sampled towards = s.evaluate(v.point, light.direction);
   if (towards.f.is_black()) return;
 
   f.carried.beta *= towards.f;

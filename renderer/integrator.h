@@ -43,6 +43,9 @@ class Integrator {
                            ///< sums are made in one order
     float travelled = 0;   ///< m
     int depth = 0;         ///< scattering events so far
+    int sample = 0;        ///< which of those to be traced
+    int parent = -1;       ///< path that this one branched off, or -1
+    int specular = 0;      ///< vertices so far that only mirror and bend
   };
   /// A point of a path where it is scattered.
   struct Vertex {
@@ -53,6 +56,7 @@ class Integrator {
   };
   /// What scatters at a vertex: a Bsdf in its frame or a Phase in world space.
   struct Scatterer;
+  struct Sampled;
   /// A flight that came to a vertex.
   struct Arrived {
     int kind;  ///< as in Vertex
@@ -64,14 +68,20 @@ class Integrator {
     LightSample light;
   };
 
-  void start(const PixelSample& sample, FilmSample& stream);
+  void make_room(std::size_t more);
+  PathView view(Path& p) const;
+  void start(const PixelSample& pixel, int sample, FilmSample& stream);
   void receive(const Flight& f);
   void gather();
   void ask_surroundings();
   void shade(std::span<const Vertex> group);
-  void scatter(const Vertex& v, const Scatterer& s);
+  void scatter(const Vertex& v, Scatterer s);
+  void go_all_ways(const Vertex& v, const Scatterer& s);
+  void go_on(const Vertex& v, const Scatterer& s, int draws);
+  int divide(int path);
+  Flight* leave(const Vertex& v, const Scatterer& s, const Sampled& sampled, int path);
   void follow(Flight& f, const Vertex& v, Vec3d direction) const;
-  void connect(const Vertex& v, const Scatterer& s, bool each_light);
+  void connect(const Vertex& v, const Scatterer& s, int draws);
   void connect(const Vertex& v, const Scatterer& s, const LightSample& light);
   void ask_emitters();
   void send_shadow_rays();

@@ -207,7 +207,8 @@ double Lights::environment_share(Vec3d from) const {
 
 double Lights::probability(int i, const Receiver& from) const {
   const int n = int(choices_.size());
-  if (n == 1 || from.each_light) return 1;
+  if (from.draws > 0) return from.draws;
+  if (n == 1) return 1;
   if (n <= kLightsWeighed) {
     std::array<double, kLightsWeighed> weights;
     const double sum = weigh(from, weights);

@@ -23,10 +23,10 @@ inline constexpr int kLightsWeighed = 32;
 /// Where light is to be scattered.
 struct Receiver {
   Vec3d position;
-  Vec3d normal;             ///< unit, towards the only side that light matters from; zero if all do
-  bool each_light = false;  ///< light is drawn from each of them rather than from one
+  Vec3d normal;   ///< unit, towards the only side that light matters from; zero if all do
+  int draws = 0;  ///< directions that are drawn towards each light; 0: one, towards one of them
 
-  Receiver(Vec3d p, Vec3d n = {}, bool each = false) : position(p), normal(n), each_light(each) {}
+  Receiver(Vec3d p, Vec3d n = {}, int d = 0) : position(p), normal(n), draws(d) {}
 };
 
 /// A direction towards a light, as seen from some point.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kLargestSide = 32768;
 
-/// Up to so many lights each of them lights the first vertex of a path, where no shadow ray waits
+/// Up to so many lights each of them lights the first vertices of a path, where no shadow ray waits
 /// for a script: they come back together, and sums are made in one order.
 constexpr int kLightsOfFirst = 4;
 

@@ -139,13 +139,14 @@ std::array<float, 4> Sampler::first() const {
   return u;
 }
 
-std::array<float, 2> Sampler::pair(int number) const {
+std::array<float, 2> Sampler::pair(int number, int draw, int draws) const {
+  const std::uint64_t sample = sample_ * std::uint64_t(draws) + std::uint64_t(draw);
   const std::uint64_t key = hash_combine(key_, std::uint64_t(number));
   if (generator_ == Generator::Random || generator_ == Generator::Unscrambled) {
-    const std::uint64_t both = hash_combine(key, sample_);
+    const std::uint64_t both = hash_combine(key, sample);
     return {unit_float(std::uint32_t(both)), unit_float(std::uint32_t(both >> 32))};
   }
-  const std::uint32_t point = shuffled(sample_, key);
+  const std::uint32_t point = shuffled(sample, key);
   const std::uint32_t x = scramble_reversed(point, mix64(key + 1));
   const std::uint32_t y = scramble_reversed(sobol_second_reversed(point), mix64(key + 2));
   return {unit_float(reverse_bits(x)), unit_float(reverse_bits(y))};
@@ -154,6 +155,12 @@ std::array<float, 2> Sampler::pair(int number) const {
 float Sampler::operator()(int coordinate) const {
   return coordinate < 4 ? first()[std::size_t(coordinate)]
                         : pair(coordinate / 2)[std::size_t(coordinate % 2)];
+}
+
+Sampler Sampler::branch(int event) const {
+  Sampler other = *this;
+  other.key_ = hash_combine(key_ ^ 0x9d8f3ac1e27b5c64ULL, std::uint64_t(event));
+  return other;
 }
 
 float Sampler::hashed(std::uint32_t stream, std::uint32_t n) const {

@@ -48,8 +48,13 @@ class Sampler {
   /// Coordinates 0 to 3. All numbers are in [0, 1): never 1, also after rounding to float.
   std::array<float, 4> first() const;
   /// Coordinates 2 `number` and the next. \pre number >= 2, or a `pair_of_light`
-  std::array<float, 2> pair(int number) const;
+  std::array<float, 2> pair(int number) const { return pair(number, 0, 1); }
+  /// The same, of draw `draw` of `draws` that each sample has of it.
+  std::array<float, 2> pair(int number, int draw, int draws) const;
   float operator()(int coordinate) const;
+
+  /// Numbers of the same sample that are others, for what goes another way at event `event`.
+  Sampler branch(int event) const;
 
   /// A hashed number for events that a path has any number of (steps through media): `stream`
   /// tells users apart, `n` counts.
@@ -74,7 +79,7 @@ constexpr int pair_of_bounce(int bounce, BouncePair p) {
   return kFirstBounce + bounce * kPairsOfBounce + p;
 }
 
-/// Places on light `i` (from 1 on) where one vertex is lit by each; `kLight` has those on light 0.
-constexpr int pair_of_light(int i) { return -i; }
+/// Places on light `i` (from 1 to 3) where a vertex is lit by each; `kLight` has those on light 0.
+constexpr int pair_of_light(int bounce, int i) { return -4 * bounce - i; }
 
 }  // namespace mms::renderer

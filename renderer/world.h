@@ -25,7 +25,7 @@ struct World {
   std::vector<bool> semi_transparent;  ///< objects that rays may pass unscattered
   bool plain = true;  ///< no volume, no priority, nothing semi-transparent: rays end where they hit
   bool nested = false;  ///< some object has a priority
-  /// The first vertex of a path is lit by each of the lights rather than by one of them: most of
+  /// The first vertices of a path are lit by each of the lights rather than by one of them: most of
   /// what a pixel's samples differ by happens there, and the choice between lights is most of that.
   bool each_light = false;
   std::uint64_t seed = 0;
