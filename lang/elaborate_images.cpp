@@ -58,6 +58,7 @@ Result<std::shared_ptr<const vm::Image>> Elaborator::open_image(vm::ImageUse& us
   for (const std::string& dir : options_.import_path) places.push_back(fs::path(dir) / written);
   Error first{"", "does not exist", ""};
   for (const fs::path& place : places) {
+    if (options_.looked_for) options_.looked_for(place.string());
     std::error_code ignored;
     const bool tiles = written.find(kUdim) != std::string::npos;
     if (!tiles && !fs::exists(place, ignored)) continue;

@@ -128,6 +128,7 @@ void Elaborator::import(const Graph& from, const Import& i, Scope* scope) {
     for (const fs::path& place : places) {
       const std::string key = import_key(place.string());
       if (taken(key)) return;
+      if (options_.looked_for) options_.looked_for(place.string());
       if (std::optional<std::string> text = read_file(place)) {
         dependencies.push_back(place.string());
         return take(key, place.string(), std::move(*text));

@@ -44,6 +44,10 @@ using Resolver =
 /// What becomes of an image that cannot be read: an error, or a warning and magenta in its place.
 enum class MissingImages : std::uint8_t { Refuse, Magenta };
 
+/// Called with each file that is looked for, as an import or an image, before it is known whether
+/// it is there: for who waits for files.
+using LookedFor = std::function<void(const std::string& file)>;
+
 struct LinkOptions {
   Level level = Level::O2;
   std::string dump_after;  ///< `Linked::dump`: a name of passes()
@@ -54,6 +58,7 @@ struct LinkOptions {
   vm::ImageSource* images = nullptr;  ///< opens images; null: there are none
   MissingImages missing_images = MissingImages::Refuse;
   StageDone stage_done;  ///< may be empty
+  LookedFor looked_for;  ///< may be empty
 };
 
 /// A pass from graphs to bytecode: what `--dump-after` and the manual print.

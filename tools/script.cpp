@@ -172,6 +172,7 @@ std::optional<lang::Linked> link(const std::vector<lang::SourcePtr>& sources,
   link.params = settings.plain;
   link.unknown_params = lang::UnknownParams::Report;
   link.images = &images;
+  link.looked_for = options.looked_for;
   if (options.missing == "magenta") link.missing_images = lang::MissingImages::Magenta;
   std::vector<lang::Graph> graphs;
   for (const lang::SourcePtr& source : sources) {

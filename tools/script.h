@@ -25,6 +25,7 @@ struct ScriptOptions {
   std::string level = "2", colour = "auto", format = "text";
   std::string missing = "error";  ///< images that cannot be read: `error` or `magenta`
   std::string image_memory;       ///< megabytes of `--image-memory`; empty: the default
+  lang::LookedFor looked_for;     ///< is told of every file that the scripts look for
   bool at_points = false;         ///< the verb evaluates points, so `--set` may set `$variables`
 
   bool json() const { return format == "json"; }

@@ -43,70 +43,65 @@ struct Stamp {
   bool operator==(const Stamp&) const = default;
 };
 
+/// Of what is no file, as of none: a folder changes whenever a picture is written to it.
 Stamp stamp(const std::string& path) {
   struct stat s {};
-  if (::stat(path.c_str(), &s) != 0) return {};
+  if (::stat(path.c_str(), &s) != 0 || !S_ISREG(s.st_mode)) return {};
   return {s.st_mtim.tv_sec, s.st_mtim.tv_nsec, s.st_size, s.st_ino};
 }
 
-/// How many scripts there are in a folder.
-int scripts_in(const std::string& folder) {
+constexpr std::string_view kUdim = "<UDIM>";
+
+/// How many files there are that `pattern` may mean.
+int tiles_of(const std::string& pattern) {
+  const fs::path path(pattern);
+  const std::string name = path.filename().string();
+  const std::size_t at = name.find(kUdim);
+  if (at == name.npos) return 0;
   int count = 0;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-    count += entry.path().extension() == ".mms";
+  for (const auto& entry :
+       fs::directory_iterator(path.has_parent_path() ? path.parent_path() : ".", ignored)) {
+    const std::string file = entry.path().filename().string();
+    count += file.starts_with(name.substr(0, at)) && file.ends_with(name.substr(at + kUdim.size()));
+  }
   return count;
 }
 
+/// Files as they were when they were added, and those that were not there.
 class WatchedFiles {
  public:
-  void add(const std::string& path) { files_.emplace(path, stamp(path)); }
-
-  /// Every script of a folder, and those that come.
-  void add_folder(const std::string& folder) {
-    folders_.emplace(folder, scripts_in(folder));
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(folder, ignored))
-      if (entry.path().extension() == ".mms") add(entry.path().string());
+  void add(const std::string& path) {
+    if (path.find(kUdim) == path.npos)
+      files_.emplace(path, stamp(path));
+    else
+      tiles_.emplace(path, tiles_of(path));
   }
 
   bool changed() const {
     return std::any_of(files_.begin(), files_.end(),
                        [](const auto& f) { return stamp(f.first) != f.second; }) ||
-           std::any_of(folders_.begin(), folders_.end(),
-                       [](const auto& f) { return scripts_in(f.first) != f.second; });
+           std::any_of(tiles_.begin(), tiles_.end(),
+                       [](const auto& t) { return tiles_of(t.first) != t.second; });
   }
 
  private:
   std::map<std::string, Stamp> files_;
-  std::map<std::string, int> folders_;
+  std::map<std::string, int> tiles_;
 };
 
-/// Names of files in a scene: meshes and pictures.
+/// What may name a file in a scene, there or not: meshes and pictures.
 void add_files_of(const nlohmann::json& json, const fs::path& folder, WatchedFiles& files) {
-  if (json.is_string()) {
-    const fs::path path = folder / json.get<std::string>();
-    std::error_code ignored;
-    if (fs::is_regular_file(path, ignored)) files.add(path.string());
-  }
+  if (json.is_string()) files.add((folder / json.get<std::string>()).string());
   if (json.is_structured())
     for (const auto& part : json) add_files_of(part, folder, files);
 }
 
 void add_scene(const std::string& scene, WatchedFiles& files) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(scene, ignored)) return;
   files.add(scene);
   std::ifstream in(scene);
   const auto json = nlohmann::json::parse(in, nullptr, false, true);
   if (!json.is_discarded()) add_files_of(json, fs::path(scene).parent_path(), files);
-}
-
-/// Where a script did not link it is not known what it imports: all scripts that it might.
-void add_neighbours(const RenderRequest& request, const std::string& file, WatchedFiles& files) {
-  const std::string own = fs::path(file).parent_path().string();
-  files.add_folder(own.empty() ? "." : own);
-  for (const std::string& folder : request.import_path) files.add_folder(folder);
 }
 
 /// Each pixel of a coarse picture as a square of the whole one.
@@ -200,19 +195,19 @@ class Version {
 
 }  // namespace
 
-Exit watch(const RenderRequest& request, const std::string& file, const std::string& path) {
+Exit watch(RenderRequest request, const std::string& file, const std::string& path) {
   Clock::time_point asked = Clock::now();
   while (!interrupted()) {
+    // Each is added before it is read: what changes after that is seen.
     WatchedFiles files;
     files.add(file);
+    add_scene(request.scene, files);
+    request.looked_for = [&](const std::string& name) { files.add(name); };
     Exit exit = Exit::Ok;
     const auto job = prepare(request, file, exit);
     std::fflush(stdout);  // messages as JSON
     if (job)
       for (const std::string& name : job->linked->dependencies) files.add(name);
-    else
-      add_neighbours(request, file, files);
-    add_scene(request.scene, files);
     std::atomic<bool> stop{false};
     const std::jthread glances([&] {
       while (!interrupted() && !files.changed()) std::this_thread::sleep_for(kGlance);

@@ -66,6 +66,47 @@ grep -c first_picture_seconds log
   CHECK(run.out == "ended 130\n6\n");
 }
 
+TEST_CASE("files that a watched picture waits for: not there yet, deleted and written again") {
+  const Folder folder;
+  folder.write("s.mms",
+               R"(import "lib.mms"; surface "s" bsdf = matte(image("maps/p.ppm", $uv)); end)");
+  folder.write("scene.json", R"({"environment": {"image": "sky.ppm"},
+                                 "objects": [{"sphere": {}, "test": true}]})");
+  const Outcome run = folder.bash(R"BASH(
+fail() { echo "$*"; cat log; kill -9 $child; exit 1; }
+# `until_line COUNT TEXT`: waits for the COUNT-th line with TEXT.
+until_line() {
+  for i in $(seq 1500); do
+    [ "$(grep -c "$2" log)" -ge "$1" ] && return; sleep 0.02
+  done
+  fail "no $1. line with $2"
+}
+touch log
+mms-render render s.mms --size 24x24 --samples 3 --scene scene.json --watch -o p.png >log 2>&1 & child=$!
+until_line 1 'lib.mms'
+echo 'const real unused = 1;' >lib.mms
+until_line 1 'does not exist'
+mkdir maps
+printf 'P6 1 1 255
+À@ ' >maps/new; mv maps/new maps/p.ppm
+until_line 1 'sky.ppm'
+printf 'P6 1 1 255
+@@À' >new; mv new sky.ppm
+until_line 1 'estimated error'
+cp p.png before.png
+rm maps/p.ppm
+until_line 2 'does not exist'
+printf 'P6 1 1 255
+ @À' >maps/new; mv maps/new maps/p.ppm
+until_line 2 'estimated error'
+cmp -s before.png p.png && fail "another image changed nothing"
+kill -INT $child; wait $child; echo "ended $?"
+)BASH");
+  INFO(run.out, run.err);
+  CHECK(run.exit == 0);
+  CHECK(run.out == "ended 130\n");
+}
+
 TEST_CASE("only one script can be watched") {
   const Folder folder;
   folder.write("s.mms", "surface \"s\" bsdf = matte(0.5); end\n");
