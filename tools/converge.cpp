@@ -57,9 +57,11 @@ Verb converge_verb() {
       "Measure error against time and samples, for any set of switches",
       "Renders a reference with many samples and another seed, then the same picture with more "
       "and more,\nand writes a table (.csv) and a plot (.svg) of the difference. --vary is "
-      "given once for each curve.\n\nExamples:\n"
+      "given once for each curve.\nA curve whose switches change the picture itself, as filter, "
+      "max-depth, set or scene do, has a\nreference of its own, with the same.\n\nExamples:\n"
       "  mms converge marble.mms -o marble.csv\n"
       "  mms converge glass.mms --samples 4:256 --with size=128x128 --with scene=cornell\n"
+      "  mms converge marble.mms --vary sampler=niederreiter --vary sampler=random\n"
       "  mms converge marble.mms --vary filter=box --vary 'filter=gaussian max-depth=8'",
       {},
       [request] { return converge(*request); }};

@@ -2,11 +2,19 @@
 // mms converge: renders by `mms render` itself, so that every switch of it can be measured.
 #include "tools/converge.h"
 
+#include <sys/wait.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <iterator>
+#include <map>
+#include <optional>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -52,49 +60,110 @@ struct Scratch {
   Scratch& operator=(const Scratch&) = delete;
 };
 
-/// `filter=box max-depth=8` as words for the shell: `--filter=box --max-depth=8`.
-std::string switches(const std::string& text) {
+/// Switches that leave the mean of a picture as it is.
+constexpr std::string_view kSameMean[] = {"--error", "--estimator", "--sampler",
+                                          "--seed",  "--threads",   "--time"};
+
+/// `filter=box max-depth=8` as words for the shell: `--filter=box --max-depth=8`. All of them, or
+/// those that change the mean.
+std::string switches(const std::string& text, bool all = true) {
   std::string words;
   std::istringstream in(text);
-  for (std::string word; in >> word;)
-    words += " " + quoted(word.starts_with("-") ? word : "--" + word);
+  for (std::string word; in >> word;) {
+    if (!word.starts_with("-")) word = "--" + word;
+    const std::string_view name = std::string_view(word).substr(0, word.find('='));
+    if (all || std::ranges::find(kSameMean, name) == std::end(kSameMean))
+      words += " " + tools::quoted(word);
+  }
   return words;
 }
 
 /// What one render left.
 struct Run {
-  double seconds = 0, estimate = 0;
+  double seconds = 0;
+  std::optional<double> estimate;  ///< of the error; not known of one sample
   renderer::ReadPicture picture;
 };
 
-Result<Run> render(const ConvergeRequest& request, const std::string& path, int samples,
-                   const std::string& more) {
+/// Shows what is wrong with a script: the render was asked for JSON, and says it to people when it
+/// is asked again.
+void show_messages(const ConvergeRequest& request, const std::string& command,
+                   const std::string& json) {
+  if (request.json()) {
+    fmt::print("{}", json);
+    std::fflush(stdout);
+  } else if (json.find("\"severity\":\"error\"") != std::string::npos) {
+    [[maybe_unused]] const int again = std::system(command.c_str());
+  }
+}
+
+/// Renders with the switches `more`; empty after saying what is wrong.
+std::optional<Run> render(const ConvergeRequest& request, const std::string& path, int samples,
+                          const std::string& more, Exit& exit, const std::string& seed = "") {
   std::error_code ignored;
   std::string command = quoted(fs::read_symlink("/proc/self/exe", ignored).string()) + " render";
   for (const std::string& file : request.files) command += " " + quoted(file);
-  command += fmt::format(" --samples {} --checkpoint 0 --format=json -o {}", samples, quoted(path));
+  command += fmt::format(" --samples {} --checkpoint 0 -o {}", samples, quoted(path));
   for (const std::string& text : request.with) command += switches(text);
-  command += more;
-  std::FILE* pipe = popen(command.c_str(), "r");
-  if (!pipe) return Error{"mms render", "cannot be started", ""};
+  command += more + seed;
+  const auto give_up = [&](Exit code, const Error& error) {
+    exit = fail(code, error, request);
+    return std::nullopt;
+  };
+  std::FILE* pipe = popen((command + " --format=json").c_str(), "r");
+  if (!pipe) return give_up(Exit::File, {"mms render", "cannot be started", ""});
   std::string out;
   char buffer[4096];
   while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, pipe)) out.append(buffer, n);
   const int status = pclose(pipe);
-  const auto json = nlohmann::json::parse(out, nullptr, false);
-  if (status != 0 || json.is_discarded() || !json.contains("seconds"))
-    return Error{"mms render", more.empty() ? std::string("failed") : "failed with" + more,
-                 "its own message says why"};
+  if (status != 0) {
+    show_messages(request, command, out);
+    const Exit code = WIFEXITED(status) ? Exit(WEXITSTATUS(status)) : Exit::Internal;
+    return give_up(code, {"mms render", "failed" + (more.empty() ? "" : " with" + more),
+                          "its own message says why"});
+  }
+  // The last line; warnings of the script stand before it.
+  out.erase(0, out.rfind('\n', out.size() - 2) + 1);
+  const auto json = nlohmann::json::parse(out);
   auto picture = renderer::read_picture(path);
-  if (!picture) return picture.error();
-  return Run{json["seconds"].get<double>(), json["error"].get<double>(), std::move(*picture)};
+  if (!picture) return give_up(Exit::File, picture.error());
+  Run run{json["seconds"].get<double>(), {}, std::move(*picture)};
+  if (json.contains("error")) run.estimate = json["error"].get<double>();
+  return run;
 }
+
+/// References, by what of their switches changes the mean.
+class References {
+ public:
+  explicit References(const ConvergeRequest& request) : request_(request) {}
+
+  /// The truth of a curve; null after saying what is wrong.
+  const Run* of(const std::string& curve, const fs::path& folder, Exit& exit) {
+    const std::string key = switches(curve, false);
+    if (const auto known = runs_.find(key); known != runs_.end()) return &known->second;
+    auto run = render(request_, (folder / "reference.exr").string(), request_.reference_samples,
+                      key, exit, std::string(" --seed ") + kReferenceSeed);
+    return run ? &runs_.emplace(key, std::move(*run)).first->second : nullptr;
+  }
+
+  /// How well the worst is known.
+  double known_to() const {
+    double worst = 0;
+    for (const auto& [key, run] : runs_) worst = std::max(worst, run.estimate.value_or(0));
+    return worst;
+  }
+
+ private:
+  const ConvergeRequest& request_;
+  std::map<std::string, Run> runs_;
+};
 
 /// One point of one curve.
 struct Row {
   std::string name;
   int samples = 0;
-  double seconds = 0, estimate = 0;
+  double seconds = 0;
+  std::optional<double> estimate;
   renderer::Comparison error;
 };
 
@@ -116,7 +185,8 @@ std::string table(const std::vector<Row>& rows) {
   for (const renderer::MeasureInfo& m : renderer::measures()) csv += fmt::format(",{}", m.name);
   csv += "\n";
   for (const Row& r : rows) {
-    csv += fmt::format("{},{},{:.6g},{:.6g}", r.name, r.samples, r.seconds, r.estimate);
+    csv += fmt::format("{},{},{:.6g},", r.name, r.samples, r.seconds);
+    if (r.estimate) csv += fmt::format("{:.6g}", *r.estimate);
     for (const renderer::MeasureInfo& m : renderer::measures())
       csv += fmt::format(",{:.6g}", r.error[m.measure]);
     csv += "\n";
@@ -145,16 +215,15 @@ std::string plot(const ConvergeRequest& request, const std::vector<std::string>&
 
 void print(const ConvergeRequest& request, const Row& r) {
   const double e = r.error[renderer::Measure::Rmse];
-  if (request.json())
-    fmt::print("{}\n", nlohmann::ordered_json{{"switches", r.name},
-                                              {"samples", r.samples},
-                                              {"seconds", r.seconds},
-                                              {"estimated_error", r.estimate},
-                                              {"rmse", e}}
-                           .dump());
-  else if (!request.quiet)
-    fmt::print("{:<32}{:>8} samples{:>10.3f} s   rmse {:<10.4g} estimated {:.4g}\n", r.name,
-               r.samples, r.seconds, e, r.estimate);
+  if (request.json()) {
+    nlohmann::ordered_json json{
+        {"switches", r.name}, {"samples", r.samples}, {"seconds", r.seconds}, {"rmse", e}};
+    if (r.estimate) json["estimated_error"] = *r.estimate;
+    fmt::print("{}\n", json.dump());
+  } else if (!request.quiet) {
+    fmt::print("{:<32}{:>8} samples{:>10.3f} s   rmse {:<10.4g} estimated {}\n", r.name, r.samples,
+               r.seconds, e, r.estimate ? fmt::format("{:.4g}", *r.estimate) : "unknown");
+  }
   std::fflush(stdout);
 }
 
@@ -169,19 +238,19 @@ Exit measure_convergence(const ConvergeRequest& request) {
          "its pictures stay a while in the folder that $TMPDIR names, else in /tmp: name one "
          "that can be written"},
         request);
-  const auto reference =
-      render(request, (scratch.path / "reference.exr").string(), request.reference_samples,
-             std::string(" --seed ") + kReferenceSeed);
-  if (!reference) return fail(Exit::Script, reference.error(), request);
+  References references(request);
   std::vector<std::string> names = request.vary;
   if (names.empty()) names.push_back("");
   std::vector<Row> rows;
+  Exit exit = Exit::Ok;
   for (std::string& name : names) {
     const std::string more = switches(name);
+    const Run* reference = references.of(name, scratch.path, exit);
+    if (!reference) return exit;
     if (name.empty()) name = "default";
     for (int samples = request.first; samples <= request.last; samples *= 2) {
-      const auto run = render(request, (scratch.path / "run.exr").string(), samples, more);
-      if (!run) return fail(Exit::Script, run.error(), request);
+      const auto run = render(request, (scratch.path / "run.exr").string(), samples, more, exit);
+      if (!run) return exit;
       const auto error = renderer::compare(run->picture, reference->picture, {});
       if (!error) return fail(Exit::Usage, error.error(), request);
       rows.push_back({name, samples, run->seconds, run->estimate, *error});
@@ -194,8 +263,8 @@ Exit measure_convergence(const ConvergeRequest& request) {
   if (const auto error = replace_file(svg, plot(request, names, rows)))
     return fail(Exit::File, *error, request);
   if (!request.quiet && !request.json())
-    fmt::print("{}, {}: {} renders; the reference is known to {:.2g}\n", request.output, svg,
-               rows.size(), reference->estimate);
+    fmt::print("{}, {}: {} renders; the truth is known to {:.2g}\n", request.output, svg,
+               rows.size(), references.known_to());
   return Exit::Ok;
 }
 
