@@ -13,10 +13,6 @@ constexpr double kWeightUnit = 0x1p24;  // two axes of Filter::kBits
 constexpr double kSumUnit = 0x1p64;
 static_assert(kWeightUnit == double(1 << 2 * Filter::kBits));
 
-/// Squares of what is brighter would not fit: 2^38 in units of 2^-64 is 2^102 and leaves room for
-/// 2^25 samples.
-constexpr double kLargestForVariance = 0x1p19;
-
 /// As many pixels tell the error of a picture to better than one part in a hundred.
 constexpr double kProbes = 0x1p18;
 

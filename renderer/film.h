@@ -32,6 +32,10 @@ enum class SampleFate : std::uint8_t { Added, NotANumber, Infinite, Overflow };
 /// Values of samples, from here on, are refused.
 inline constexpr double kLargestSample = 0x1p32;
 
+/// Luminance above it counts as it in variances: squares of what is brighter would not fit. 2^38 in
+/// units of 2^-64 is 2^102 and leaves room for 2^25 samples.
+inline constexpr double kLargestForVariance = 0x1p19;
+
 /// Pixels [x0, x1) x [y0, y1).
 struct Rect {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
@@ -45,7 +49,7 @@ struct Rect {
 /// below 2^32 each, 2^31 of the largest fit.
 struct PixelSums {
   Int128 xyz[3] = {0, 0, 0};    ///< of weight times value, in 2^-64
-  Int128 luminance_square = 0;  ///< of weight times Y^2, in 2^-64; |Y| is cut at 2^19 for it
+  Int128 luminance_square = 0;  ///< of weight times Y^2, in 2^-64; |Y| is cut for it
   std::int64_t weight = 0;      ///< in 2^-24
   std::uint32_t samples = 0;    ///< that fell into the pixel
   std::uint32_t dropped = 0;    ///< of them, those that were not added

@@ -77,7 +77,11 @@ Rendered Job::run() {
   return finish();
 }
 
-bool Job::out_of_time() const { return options_.seconds > 0 && seconds() >= options_.seconds; }
+/// Time ends nothing before every tile has been handed out once: a picture has a sample everywhere.
+bool Job::out_of_time() const {
+  return options_.seconds > 0 && next_chunk_ >= std::int64_t(film_->done.size()) &&
+         seconds() >= options_.seconds;
+}
 
 bool Job::ended() const {
   return too_many_faults_ || good_ || out_of_time() ||
@@ -181,10 +185,16 @@ void Job::work() {
 /// A chunk is in the film with all its samples or not at all.
 void Job::add(const Chunk& chunk, FilmSums& part, std::span<const FilmSample> samples) {
   std::vector<std::pair<PixelSample, SampleFate>> dropped;
-  for (const FilmSample& s : samples)
-    if (const SampleFate fate = part.add(s); fate != SampleFate::Added)
+  std::uint64_t cut = 0;
+  for (const FilmSample& s : samples) {
+    const SampleFate fate = part.add(s);
+    if (fate != SampleFate::Added)
       dropped.push_back({{int(s.x), int(s.y), int(s.number)}, fate});
+    else
+      cut += std::abs(s.xyz[1]) > kLargestForVariance;
+  }
   const std::scoped_lock lock(film_lock_);
+  report_.cut += cut;
   film_->sums.merge(part);
   film_->done[chunk.tile].add(chunk.samples);
   for (const auto& [sample, fate] : dropped) drop(sample, fate);

@@ -42,8 +42,8 @@ class Job {
   void begin_round();
   void add(const Chunk& chunk, FilmSums& part, std::span<const FilmSample> samples);
   void drop(const PixelSample& s, SampleFate fate);
-  bool ended() const;
-  bool out_of_time() const;
+  bool ended() const;        ///< \pre schedule_lock_ is held
+  bool out_of_time() const;  ///< \pre schedule_lock_ is held
   void watch();
   void show_progress();
   void save();

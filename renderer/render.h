@@ -69,7 +69,7 @@ struct RenderOptions {
   int width = 512, height = 512;  ///< pixels, each in [1, 32768]
   int first_sample = 0;           ///< numbers of the samples of each pixel: from this one
   int samples = 64;               ///< to this one, which is left out; at most kMostSamples
-  double seconds = 0;             ///< ends soon after as many, if above 0
+  double seconds = 0;             ///< if above 0, ends soon after as many and a first pass
   double error = 0;               ///< ends when Report::rmse is no larger, if above 0
   int threads = 0;                ///< 0: as many as the machine has
   std::uint64_t seed = 0;
@@ -90,7 +90,8 @@ struct RenderOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Samples that were not finite, by cause.
+/// Samples that could not be added, by cause; `overflow` is of light that is finite, but brighter
+/// than sums have room for (renderer/film.h).
 struct Dropped {
   std::uint64_t nan = 0, infinite = 0, overflow = 0;
   int first_x = -1, first_y = -1, first_sample = -1;  ///< the first in scan order; replays alone
@@ -117,8 +118,9 @@ struct Report {
   double seconds = 0;  ///< of rendering, without loading
   int threads = 0;
   /// Root mean square, over all pixels, of the standard error of a pixel's linear luminance
-  /// (1 is display white): renderer/error.h. 0 below two samples.
+  /// (1 is display white): renderer/error.h. Below two samples it is not known, and 0.
   double rmse = 0;
+  std::uint64_t cut = 0;  ///< samples brighter than variances know: `rmse` may be too small
 
   std::uint64_t paths = 0;
   std::uint64_t script_runs = 0;    ///< runs of the machine, of any entry

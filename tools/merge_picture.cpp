@@ -40,13 +40,14 @@ void print_report(const MergeRequest& request, const StoredFilm& sum) {
   std::uint32_t fewest = ~0u;
   for (const renderer::PixelSums& p : sum.film.sums.pixels()) fewest = std::min(fewest, p.samples);
   const double error = renderer::ErrorEstimate(sum.film.sums, sum.film.complete()).rmse();
-  if (request.json())
-    fmt::print(
-        "{}\n",
-        nlohmann::ordered_json{{"picture", request.output}, {"samples", fewest}, {"error", error}}
-            .dump());
-  else if (!request.quiet)
-    fmt::print("{}: {} samples per pixel, estimated error {:.2g}\n", request.output, fewest, error);
+  if (request.json()) {
+    nlohmann::ordered_json json{{"picture", request.output}, {"samples", fewest}};
+    if (tells_error(fewest)) json["error"] = error;
+    fmt::print("{}\n", json.dump());
+  } else if (!request.quiet) {
+    fmt::print("{}: {} samples per pixel, estimated error {}\n", request.output, fewest,
+               error_text(fewest, error));
+  }
 }
 
 }  // namespace

@@ -64,6 +64,25 @@ Result<renderer::Done> check_output(const std::vector<std::string>& paths,
   return renderer::Done{};
 }
 
+std::string error_text(std::uint32_t samples, double error) {
+  return tells_error(samples) ? fmt::format("{:.2g}", error) : "unknown";
+}
+
+namespace {
+
+/// Numbers of all samples that there are: `0:64`, `0:64 128:192`.
+std::string numbers(const renderer::PartialFilm& film) {
+  renderer::SampleSet all;
+  for (const renderer::SampleSet& tile : film.done)
+    for (const renderer::SampleSet::Range& r : tile.ranges()) all.add(r);
+  std::string text;
+  for (const auto& [first, end] : all.ranges())
+    text += fmt::format("{}{}:{}", text.empty() ? "" : " ", first, end);
+  return text;
+}
+
+}  // namespace
+
 renderer::Metadata metadata(const std::string& path, const renderer::FilmKey& key,
                             const renderer::PartialFilm& film) {
   std::uint32_t fewest = ~0u;
@@ -72,12 +91,17 @@ renderer::Metadata metadata(const std::string& path, const renderer::FilmKey& ke
       {"Software", "mms " MMS_VERSION},
       {"mms:seed", fmt::format("{}", key.seed)},
       {"mms:samples", fmt::format("{}", fewest)},
-      {"mms:error",
-       fmt::format("{:.4g}", renderer::ErrorEstimate(film.sums, film.complete()).rmse())},
+      {"mms:sample_numbers", numbers(film)},
       {"mms:filter", std::string(renderer::filters()[std::size_t(key.filter)].name)},
       {"mms:depth", fmt::format("{}", key.max_depth)},
+      {"mms:sampler", std::string(renderer::generators()[std::size_t(key.generator)].name)},
+      {"mms:estimator", std::string(renderer::estimators()[std::size_t(key.estimator)].name)},
       {"mms:script", fmt::format("{:016x}", key.script)},
       {"mms:scene", fmt::format("{:016x}", key.scene)}};
+  if (tells_error(fewest)) {
+    const double error = renderer::ErrorEstimate(film.sums, film.complete()).rmse();
+    all.emplace_back("mms:error", fmt::format("{:.4g}", error));
+  }
   if (path.ends_with(".exr")) all.emplace_back("mms:command", command_line());
   return all;
 }

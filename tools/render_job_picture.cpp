@@ -7,10 +7,13 @@
 #include <fstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "api/library.h"
 #include "base/hash.h"
+#include "renderer/film.h"
+#include "tools/output.h"
 #include "vm/serialise.h"
 
 namespace mms::tools {
@@ -84,30 +87,53 @@ Json to_json(const std::string& script, const std::string& path, const renderer:
   Json faults = Json::array();
   for (const renderer::FaultCount& f : r.faults)
     faults.push_back({{"where", f.where}, {"cause", f.cause}, {"lanes", f.lanes}});
-  return {{"script", script},
-          {"picture", path},
-          {"samples", r.samples},
-          {"seconds", r.seconds},
-          {"error", r.rmse},
-          {"threads", r.threads},
-          {"paths", r.paths},
-          {"rays", r.rays},
-          {"shadow_rays", r.shadow_rays},
-          {"script_runs", r.script_runs},
-          {"script_points", r.script_points},
-          {"batch_fill", r.batch_fill},
-          {"pass_runs", r.pass_runs},
-          {"emission_runs", r.emission_runs},
-          {"medium_runs", r.medium_runs},
-          {"media_steps", r.media_steps},
-          {"medium_samples", r.medium_samples},
-          {"denser_samples", r.denser_samples},
-          {"dropped_nan", r.dropped.nan},
-          {"dropped_infinite", r.dropped.infinite},
-          {"dropped_overflow", r.dropped.overflow},
-          {"fault_lanes", r.fault_lanes},
-          {"faults", faults},
-          {"stopped", r.stopped}};
+  Json json{{"script", script},
+            {"picture", path},
+            {"samples", r.samples},
+            {"seconds", r.seconds},
+            {"error", r.rmse},
+            {"threads", r.threads},
+            {"paths", r.paths},
+            {"rays", r.rays},
+            {"shadow_rays", r.shadow_rays},
+            {"script_runs", r.script_runs},
+            {"script_points", r.script_points},
+            {"batch_fill", r.batch_fill},
+            {"pass_runs", r.pass_runs},
+            {"emission_runs", r.emission_runs},
+            {"medium_runs", r.medium_runs},
+            {"media_steps", r.media_steps},
+            {"medium_samples", r.medium_samples},
+            {"denser_samples", r.denser_samples},
+            {"dropped_nan", r.dropped.nan},
+            {"dropped_infinite", r.dropped.infinite},
+            {"dropped_overflow", r.dropped.overflow},
+            {"cut_samples", r.cut},
+            {"fault_lanes", r.fault_lanes},
+            {"faults", faults},
+            {"stopped", r.stopped}};
+  if (!tells_error(std::uint32_t(r.samples))) json.erase("error");
+  return json;
+}
+
+/// Light that could not be added, or that the stated error does not know.
+void warn_of_samples(const std::string& script, const renderer::Report& r) {
+  const renderer::Dropped& d = r.dropped;
+  std::vector<std::string> left_out;
+  if (d.nan + d.infinite > 0)
+    left_out.push_back(fmt::format("{} samples were not finite", d.nan + d.infinite));
+  if (d.overflow > 0)
+    left_out.push_back(fmt::format("{} samples were too bright ({:.2g} times white is the most)",
+                                   d.overflow, renderer::kLargestSample));
+  if (!left_out.empty())
+    fmt::print(stderr, "warning: {}: {} and were left out; the first: pixel ({}, {}), sample {}\n",
+               script, fmt::join(left_out, ", "), d.first_x, d.first_y, d.first_sample);
+  if (r.cut > 0)
+    fmt::print(
+        stderr,
+        "warning: {}: {} samples were brighter than {:.2g} times white; the stated error takes "
+        "them to be that bright, so it may be too small\n",
+        script, r.cut, renderer::kLargestForVariance);
 }
 
 }  // namespace
@@ -166,19 +192,14 @@ void print_report(const RenderRequest& request, const std::string& script, const
   if (request.json()) {
     fmt::print("{}\n", json.dump());
   } else if (!request.quiet) {
-    fmt::print("{}: {} samples per pixel, {:.2f} s, estimated error {:.2g}\n", path, r.samples,
-               r.seconds, r.rmse);
+    fmt::print("{}: {} samples per pixel, {:.2f} s, estimated error {}\n", path, r.samples,
+               r.seconds, error_text(std::uint32_t(r.samples), r.rmse));
     if (request.report)
       for (const auto& [name, value] : json.items())
         if (value.is_number()) fmt::print("  {:<18}{}\n", name, value.dump());
   }
   std::fflush(stdout);
-  if (r.dropped.count() > 0)
-    fmt::print(
-        stderr,
-        "warning: {}: {} samples were not finite and were left out; the first: pixel ({}, {}), "
-        "sample {}\n",
-        script, r.dropped.count(), r.dropped.first_x, r.dropped.first_y, r.dropped.first_sample);
+  warn_of_samples(script, r);
   for (const renderer::NotFinite& n : r.not_finite)
     fmt::print(stderr,
                "warning: {0}: `{1}` of `{2}` was not finite there\n  = help: to see every value on "
