@@ -82,17 +82,20 @@ std::optional<Error> read_numbers(RenderRequest& r) {
   if (!seed)
     return Error{"--seed", fmt::format("`{}` is not a seed", r.seed), "any whole number from 0 up"};
   r.seed_number = *seed;
-  const auto seconds = number<double>(r.checkpoint);
-  if (!seconds || !(*seconds >= 0))
-    return Error{"--checkpoint", fmt::format("`{}` is not a number of seconds", r.checkpoint),
-                 "how much work may be lost at most; 0 is never"};
-  r.checkpoint_seconds = *seconds;
+  if (!r.checkpoint.empty()) {
+    const auto seconds = number<double>(r.checkpoint);
+    if (!seconds || !(*seconds >= 0))
+      return Error{"--checkpoint", fmt::format("`{}` is not a number of seconds", r.checkpoint),
+                   "how much work may be lost at most; 0 is never"};
+    r.checkpoint_seconds = *seconds;
+  }
   if (!r.turntable.empty())
     if (auto e = read("--turntable", r.turntable, 1, 9999, r.frames,
                       "how many pictures make one turn, as in --turntable 48"))
       return e;
   if ((!r.sweep.empty()) + (r.frames > 0) + r.watch > 1)
-    return Error{"--sweep", "one of --sweep, --turntable and --watch at a time", "leave two out"};
+    return Error{"--sweep", "one of --sweep, --turntable and --watch at a time",
+                 "leave the others out"};
   return read_picture_options(r);
 }
 
@@ -150,7 +153,10 @@ Verb render_verb() {
             "Render scripts to pictures of a test object",
             "Ctrl-C stops, writes what is there, and ends with code 130; --resume goes on from "
             "there, to the\n"
-            "bits of a render that was not stopped.\n\nExamples:\n"
+            "bits of a render that was not stopped. With --error or --time these end by what is "
+            "there too: a film\n"
+            "of --samples 20 keeps its 20, where a render from the start may end with fewer.\n\n"
+            "Examples:\n"
             "  mms render marble.mms\n  mms render marble.mms -o marble.exr --samples 256\n"
             "  mms render marble.mms --error 0.01 --time 60\n"
             "  mms render examples/*.mms -o out/ --size 256x256\n"

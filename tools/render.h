@@ -15,7 +15,7 @@ struct RenderRequest : PictureOptions {
   std::string output;  ///< as given; empty, a file, or a folder
   std::string size = "512x512";
   int width = 512, height = 512;  ///< from `size`
-  std::string samples, threads = "0", max_depth = "64", seed = "0", checkpoint = "60";
+  std::string samples, threads = "0", max_depth = "64", seed = "0", checkpoint;
   std::string time, error, filter = "blackman-harris", estimator = "clustered",
                            sampler = "niederreiter";
   int first_sample = 0, end_sample = 64, thread_count = 0, depth = 64;

@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "renderer/film_file.h"
 #include "renderer/picture.h"
+#include "renderer/samples.h"
 #include "tools/output.h"
 #include "tools/render.h"
 #include "tools/render_job.h"
@@ -80,10 +83,11 @@ std::string checkpoint_path(const std::string& path) {
                                                   : path + std::string(renderer::kFilmExtension);
 }
 
-/// What an earlier render left, or nothing where there is none. Errors: damaged, or of another
-/// picture.
+/// What an earlier render left, or nothing where there is none. Errors: damaged, of another
+/// picture, or with samples from number `end` on, which no picture of the samples before it has.
 Result<std::shared_ptr<const renderer::PartialFilm>> earlier(const std::string& checkpoint,
-                                                             const renderer::FilmKey& key) {
+                                                             const renderer::FilmKey& key,
+                                                             std::uint32_t end) {
   std::shared_ptr<const renderer::PartialFilm> none;
   std::error_code ignored;
   if (!fs::exists(checkpoint, ignored)) return none;
@@ -92,25 +96,35 @@ Result<std::shared_ptr<const renderer::PartialFilm>> earlier(const std::string& 
   if (const std::string other = renderer::difference(stored->key, key); !other.empty())
     return Error{checkpoint, "is of another picture: " + other,
                  "give the options it was made with, or leave --resume out"};
+  std::uint32_t last = 0;
+  for (const renderer::SampleSet& tile : stored->film.done)
+    if (!tile.ranges().empty()) last = std::max(last, tile.ranges().back().second);
+  if (last > end)
+    return Error{checkpoint,
+                 fmt::format("has samples up to {} already, more than --samples {}", last, end),
+                 fmt::format("go on to --samples {}, or take what is there: mms merge {} -o PATH",
+                             last, quoted(checkpoint))};
   return std::make_shared<const renderer::PartialFilm>(std::move(stored->film));
 }
 
 /// Keeps the sums of a render, and says once if that cannot be done.
 class Checkpoint {
  public:
-  Checkpoint(std::string path, const renderer::FilmKey& key) : path_(std::move(path)), key_(key) {}
+  /// `below`: under a progress line.
+  Checkpoint(std::string path, const renderer::FilmKey& key, bool below)
+      : path_(std::move(path)), key_(key), below_(below) {}
   void save(const renderer::PartialFilm& film) {
     const auto saved = renderer::save_film(path_, key_, film);
     if (!saved && !std::exchange(failed_, true))
-      fmt::print(stderr, "\nwarning: {}: {}; rendering goes on\n", saved.error().where,
-                 saved.error().what);
+      fmt::print(stderr, "{}warning: {}: {}; rendering goes on\n", below_ ? "\n" : "",
+                 saved.error().where, saved.error().what);
   }
   const std::string& path() const { return path_; }
 
  private:
   std::string path_;
   renderer::FilmKey key_;
-  bool failed_ = false;
+  bool below_, failed_ = false;
 };
 
 /// Writes what was asked for, and leaves a checkpoint behind where work would be lost without.
@@ -134,9 +148,10 @@ Exit render_one(RenderRequest request, const std::string& file, const std::strin
   renderer::RenderOptions options = render_options(request);
   const renderer::FilmKey key = renderer::film_key(job->scene, options, job->script);
   options.layers = path.ends_with(".exr") || path.ends_with(renderer::kFilmExtension);
-  Checkpoint checkpoint(checkpoint_path(path), key);
+  const bool progress = !request.quiet && isatty(STDERR_FILENO);
+  Checkpoint checkpoint(checkpoint_path(path), key, progress);
   if (request.resume) {
-    const auto found = earlier(checkpoint.path(), key);
+    const auto found = earlier(checkpoint.path(), key, std::uint32_t(options.samples));
     if (!found) return fail(Exit::File, found.error(), request);
     options.begin_with = *found;
   }
@@ -145,7 +160,7 @@ Exit render_one(RenderRequest request, const std::string& file, const std::strin
     options.save_seconds = request.checkpoint_seconds;
   }
   auto rendered = [&] {
-    const ProgressLine line(!request.quiet && isatty(STDERR_FILENO), path);
+    const ProgressLine line(progress, path);
     options.progress = [&line](const renderer::Progress& p) { line.show(p); };
     return renderer::render(job->linked->program, job->scene, options);
   }();
@@ -169,10 +184,44 @@ Exit render_turn(RenderRequest request, const std::string& file, const std::stri
   return worst;
 }
 
+/// Sheets and pictures that follow their files keep no sums.
+std::optional<Error> check_checkpoint(const RenderRequest& request) {
+  const bool sheet = wants_sheet(request);
+  const bool checkpoint = !request.checkpoint.empty() && request.checkpoint_seconds > 0;
+  if (!(sheet || request.watch) || !(request.resume || checkpoint)) return std::nullopt;
+  return Error{
+      request.resume ? "--resume" : "--checkpoint",
+      sheet ? "a sheet keeps nothing to go on from" : "--watch keeps nothing to go on from",
+      sheet ? "render its pictures one by one, scripts to a folder: -o out/" : "leave it out"};
+}
+
+/// Two scripts whose pictures would be one file.
+std::optional<Error> check_distinct(const RenderRequest& request,
+                                    const std::vector<std::string>& paths) {
+  std::map<std::string, std::string> script_of;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    if (const auto [first, added] = script_of.emplace(paths[i], request.files[i]); !added)
+      return Error{"-o",
+                   fmt::format("the pictures of {} and {} would both be {}", first->second,
+                               request.files[i], paths[i]),
+                   "render one of them by itself, or all to one sheet: -o sheet.png"};
+  return std::nullopt;
+}
+
+/// `-o DIR/` is made where it is not there.
+std::optional<Error> make_folder(const std::string& output) {
+  std::error_code error;
+  if (output.ends_with('/')) fs::create_directories(output, error);
+  if (!error) return std::nullopt;
+  return Error{output, "the folder cannot be made: " + error.message(), "name another with -o"};
+}
+
 }  // namespace
 
 Exit render_pictures(const RenderRequest& request) {
+  if (const auto error = check_checkpoint(request)) return fail(Exit::Usage, *error, request);
   if (wants_sheet(request)) {
+    if (const auto error = make_folder(request.output)) return fail(Exit::File, *error, request);
     catch_interrupts();
     return render_sheet(request);
   }
@@ -182,6 +231,8 @@ Exit render_pictures(const RenderRequest& request) {
     if (!path) return fail(Exit::Usage, path.error(), request);
     paths.push_back(*path);
   }
+  if (const auto error = check_distinct(request, paths)) return fail(Exit::Usage, *error, request);
+  if (const auto error = make_folder(request.output)) return fail(Exit::File, *error, request);
   if (const auto ok = check_output(paths, request); !ok)
     return fail(Exit::File, ok.error(), request);
   catch_interrupts();

@@ -14,7 +14,8 @@ namespace mms::tools {
 bool wants_sheet(const RenderRequest& request);
 
 /// Renders them and puts them on one sheet at `request.output`, or where that is empty at
-/// `NAME.png`. A script that does not render leaves its place empty.
+/// `NAME.png`. A script that does not render leaves its place empty; a sweep of a param
+/// that a script does not have renders nothing.
 Exit render_sheet(const RenderRequest& request);
 
 }  // namespace mms::tools

@@ -7,7 +7,9 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "lang/diagnostics.h"
 #include "renderer/film_file.h"
 #include "renderer/picture.h"
 #include "renderer/sheet.h"
@@ -71,6 +73,32 @@ std::vector<Variant> variants(const RenderRequest& request, const std::optional<
   return all;
 }
 
+/// Whether the script `file` has the param that is swept; says once what is wrong for every tile.
+Exit check_sweep(const RenderRequest& request, const Sweep& sweep, const std::string& file) {
+  if (file == "-")
+    return fail(Exit::Usage, {"--sweep", "standard input can be read only once", "name a file"},
+                request);
+  Exit exit = Exit::Ok;
+  const auto sources = read_sources({file}, request, exit);
+  if (!sources) return exit;
+  lang::Diagnostics diagnostics;
+  const auto linked = compile(*sources, request, diagnostics, exit);
+  if (!linked || diagnostics.has_errors()) {
+    print(diagnostics, request);
+    return linked ? Exit::Script : exit;
+  }
+  std::vector<std::string> names;
+  for (const lang::ParamInfo& p : linked->params) names.push_back(p.name);
+  if (std::ranges::find(names, sweep.param) != names.end()) return Exit::Ok;
+  const std::string near = lang::nearest(sweep.param, names);
+  return fail(Exit::Usage,
+              {"--sweep", fmt::format("{} has no param `{}`", file, sweep.param),
+               !near.empty()    ? fmt::format("did you mean `{}`?", near)
+               : !names.empty() ? fmt::format("there are: {}", fmt::join(names, ", "))
+                                : "add one to the script: param real roughness = 0.3;"},
+              request);
+}
+
 /// Renders one tile; its pixels are left empty where that fails.
 Exit render_tile(const Variant& v, renderer::SheetTile& tile) {
   tile.caption = v.caption;
@@ -113,8 +141,16 @@ Exit render_sheet(const RenderRequest& request) {
   const std::vector<Variant> all = variants(request, *sweep);
   std::vector<renderer::SheetTile> tiles(all.size());
   Exit worst = Exit::Ok;
-  for (std::size_t i = 0; i < all.size() && !interrupted(); ++i)
-    worst = std::max(worst, render_tile(all[i], tiles[i]));
+  if (*sweep)
+    for (const std::string& file : request.files)
+      worst = std::max(worst, check_sweep(request, **sweep, file));
+  if (worst != Exit::Ok) return worst;
+  int done = 0;
+  for (std::size_t i = 0; i < all.size() && !interrupted(); ++i) {
+    const Exit exit = render_tile(all[i], tiles[i]);
+    done += exit == Exit::Ok;
+    worst = std::max(worst, exit);
+  }
   if (std::all_of(tiles.begin(), tiles.end(), [](const auto& t) { return t.pixels.empty(); }))
     return worst;
   // A sweep of few steps stays in one row; a row for each script.
@@ -128,8 +164,12 @@ Exit render_sheet(const RenderRequest& request) {
   if (!sheet.captions && !request.quiet)
     fmt::print(stderr, "note: {}: no captions, since there is no font: install fonts-dejavu-core\n",
                path);
-  if (!request.quiet && !request.json())
-    fmt::print("{}: {} pictures of {}x{}\n", path, count, request.width, request.height);
+  if (interrupted())
+    fmt::print(stderr, "stopped: {} has {} of {} pictures in full\n", path, done, count);
+  else if (!request.quiet && !request.json())
+    fmt::print("{}: {}{} pictures of {}x{}\n", path,
+               done < count ? fmt::format("{} of ", done) : "", count, request.width,
+               request.height);
   return worst;
 }
 

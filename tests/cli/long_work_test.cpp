@@ -150,6 +150,33 @@ TEST_CASE("Ctrl-C keeps what is there, and --resume goes on to the same bits") {
   CHECK(folder.read("cut.png") == folder.read("whole.png"));
 }
 
+TEST_CASE("a checkpoint that cannot be written is warned of in a line of its own") {
+  const Folder folder;
+  folder.write("s.mms", kScript);
+  const Outcome run = folder.bash(
+      "mkdir a.png.film; mms render s.mms --size 96x96 --samples 512 --checkpoint 0.001 -o a.png");
+  CHECK(run.exit == 0);
+  CHECK(run.err.starts_with("warning: a.png.film: "));
+}
+
+TEST_CASE("a film with more samples than are asked for is not taken for a picture of them") {
+  const Folder folder;
+  folder.write("s.mms", kScript);
+  const std::string render = "render s.mms --quiet --size 24x24 -o a.film ";
+  good(folder, render + "--samples 24");
+  const std::string film = folder.read("a.film");
+  const Outcome run = folder.mms(render + "--samples 16 --resume");
+  CHECK(run.exit == 3);
+  CHECK(contains(run.err, "a.film: has samples up to 24 already, more than --samples 16"));
+  CHECK(contains(run.err, "mms merge a.film"));
+  CHECK(folder.read("a.film") == film);
+  good(folder, render + "--samples 24 --resume");
+  CHECK(folder.read("a.film") == film);
+  // What is there is good enough already, and stays.
+  good(folder, render + "--error 1 --resume");
+  CHECK(folder.read("a.film") == film);
+}
+
 TEST_CASE("a render killed at any moment and resumed ends with the same bits") {
   const Folder folder;
   folder.write("s.mms", kScript);

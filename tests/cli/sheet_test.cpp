@@ -77,8 +77,67 @@ TEST_CASE("a sweep shows a param at its values, in a row") {
     CHECK(wrong.exit == 2);
     CHECK(contains(wrong.err, "--sweep"));
   }
-  CHECK(folder.mms("render a.mms --sweep shape=0:1:2 -o n.png" + options).exit != 0);
+  const Outcome none = folder.mms("render a.mms --sweep shape=0:1:7 -o n.png" + options);
+  CHECK(none.exit == 2);
+  CHECK(none.err ==
+        "error: --sweep: a.mms has no param `shape`\n  = help: did you mean `shade`?\n");
+  CHECK(folder.mms("render - --sweep shade=0:1:2 -o n.png" + options).exit == 2);
   CHECK(folder.mms("render a.mms --sweep shade=0:1:2 --watch" + options).exit == 2);
+}
+
+TEST_CASE("a sheet that is stopped says how much of it is there, and none goes on from before") {
+  const Folder folder;
+  folder.write("s.mms", "param real shade = 0.3;\nsurface \"s\" bsdf = matte(shade); end\n");
+  // Stopped when the first of many pictures is there.
+  const Outcome run = folder.bash(R"BASH(
+touch log
+mms-render render s.mms --sweep shade=0:1:400 --size 32x32 --samples 16 -o s.png >log 2>err & child=$!
+for i in $(seq 3000); do
+  grep -q 'shade = 0:' log && break; sleep 0.01
+done
+kill -INT $child; wait $child; echo "ended $?"; cat err; tail -n 1 log
+)BASH");
+  INFO(run.out, run.err);
+  CHECK(contains(run.out, "ended 130\n"));
+  CHECK(contains(run.out, "stopped: s.png has "));
+  CHECK(contains(run.out, " of 400 pictures in full"));
+  CHECK_FALSE(contains(run.out, "has 400"));
+  CHECK_FALSE(contains(run.out, "s.png: 400 pictures"));
+  CHECK(folder.has("s.png"));
+  folder.write("a.mms", "surface \"a\" bsdf = matte(0.1); end\n");
+  for (const char* args : {"a.mms a.mms -o t.png --resume", "a.mms a.mms -o t.png --checkpoint 10",
+                           "a.mms --watch -o t.png --resume"}) {
+    CAPTURE(args);
+    const Outcome refused = folder.mms("render --samples 1 --size 8x8 " + std::string(args));
+    CHECK(refused.exit == 2);
+    CHECK(contains(refused.err, "nothing to go on from"));
+  }
+  CHECK_FALSE(folder.has("t.png"));
+}
+
+TEST_CASE("a folder with a slash is made, and holds a picture of each script or none") {
+  const Folder folder;
+  folder.write("m.mms", "surface \"a\" bsdf = matte(0.1); end\n");
+  folder.write("n.mms", "surface \"a\" bsdf = matte(0.2); end\n");
+  const std::string options = " --quiet --size 8x8 --samples 1 -o ";
+  CHECK(folder.mms("render m.mms n.mms" + options + "out/deep/").exit == 0);
+  CHECK(folder.has("out/deep/m.png"));
+  CHECK(folder.has("out/deep/n.png"));
+  CHECK(folder.mms("render m.mms --turntable 2" + options + "turn/").exit == 0);
+  CHECK(folder.has("turn/m.001.png"));
+  CHECK(folder.mms("render m.mms --sweep x=0:1:2" + options + "m.mms/").exit == 3);
+  CHECK(folder.mms("render m.mms m.mms" + options + "sheets/").exit == 2);
+  CHECK_FALSE(folder.has("sheets"));
+  folder.write("out/m.mms", folder.read("n.mms"));
+  for (const char* output : {"two/", "out", ""}) {
+    CAPTURE(output);
+    const Outcome run = folder.mms("render m.mms out/m.mms --size 8x8 --samples 1" +
+                                   (*output ? std::string(" -o ") + output : std::string()));
+    CHECK(run.exit == 2);
+    CHECK(contains(run.err, "the pictures of m.mms and out/m.mms would both be"));
+  }
+  CHECK_FALSE(folder.has("two"));
+  CHECK_FALSE(folder.has("out/m.png"));
 }
 
 TEST_CASE("a turntable turns the test object, and ends where it began") {
