@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include <fmt/format.h>
@@ -16,6 +17,12 @@
 namespace mms::renderer {
 
 namespace {
+
+/// OpenImageIO may say the same in several lines.
+Error unreadable(const std::string& path, const std::string& why) {
+  return {path, "cannot read the picture: " + why.substr(0, why.find('\n')),
+          "is it whole, and a picture that OpenImageIO reads?"};
+}
 
 /// The channels of `layer`, three; nothing where there is no such layer.
 std::optional<std::array<int, 3>> channels(const OIIO::ImageSpec& spec, const std::string& layer) {
@@ -50,8 +57,11 @@ Metadata texts(const OIIO::ImageSpec& spec) {
 }  // namespace
 
 Result<ReadPicture> read_picture(const std::string& path, const std::string& layer) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    return Error{path, "there is no such picture", "is it there?"};
   const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path);
-  if (!in) return Error{path, "cannot read the picture: " + OIIO::geterror(), "try .exr or .hdr"};
+  if (!in) return unreadable(path, OIIO::geterror());
   const OIIO::ImageSpec& spec = in->spec();
   if (spec.nchannels < 1 || spec.width < 1 || spec.height < 1)
     return Error{path, "the picture has no pixels", ""};
@@ -62,7 +72,7 @@ Result<ReadPicture> read_picture(const std::string& path, const std::string& lay
   const std::size_t stride = std::size_t(spec.nchannels);
   std::vector<float> pixels(area * stride);
   if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
-    return Error{path, "cannot read the picture: " + in->geterror(), ""};
+    return unreadable(path, in->geterror());
   const std::string space = spec.get_string_attribute("oiio:ColorSpace");
   const bool encoded = space.empty() ? spec.format.is_floating_point() == false : space == "sRGB";
   const int variance = spec.channelindex("variance");
@@ -82,6 +92,9 @@ Result<ReadPicture> read_picture(const std::string& path, const std::string& lay
 }
 
 Result<EnvironmentImage> load_environment(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    return Error{path, "no picture file `" + path + "`", "paths are relative to the scene file"};
   Result<ReadPicture> picture = read_picture(path);
   if (!picture) return picture.error();
   for (std::array<float, 3>& c : picture->rgb)

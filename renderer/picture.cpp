@@ -23,7 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSupported = "supported: .png (8-bit sRGB), .exr (linear float)";
+constexpr const char* kSupported =
+    "supported: .png (8-bit sRGB), .exr (linear float), .film (exact sums)";
 
 std::string extension_of(const std::string& path) {
   std::string e = fs::path(path).extension().string();

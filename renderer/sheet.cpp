@@ -24,15 +24,15 @@ std::string find_font() {
   return "";
 }
 
-/// Draws `text` in the middle of the strip that begins at (x, y), no wider than `width`.
-void write_caption(OIIO::ImageBuf& image, const std::string& text, const std::string& font, int x,
-                   int y, int width, int size) {
-  const OIIO::ROI box = OIIO::ImageBufAlgo::text_size(text, size, font);
-  if (box.defined() && box.width() > width) size = std::max(6, size * width / box.width());
-  const std::array<float, 3> ink{kInk, kInk, kInk};
-  OIIO::ImageBufAlgo::render_text(image, x + width / 2, y, text, size, font, ink,
-                                  OIIO::ImageBufAlgo::TextAlignX::Center,
-                                  OIIO::ImageBufAlgo::TextAlignY::Center);
+/// The size of letters, at most `size`, at which every caption is no wider than `width`.
+int fitting_size(const std::vector<SheetTile>& tiles, const std::string& font, int width,
+                 int size) {
+  int widest = width;
+  for (const SheetTile& tile : tiles) {
+    const OIIO::ROI box = OIIO::ImageBufAlgo::text_size(tile.caption, size, font);
+    if (box.defined()) widest = std::max(widest, box.width());
+  }
+  return std::max(6, size * width / widest);
 }
 
 }  // namespace
@@ -43,9 +43,10 @@ Sheet make_sheet(const std::vector<SheetTile>& tiles, int width, int height, int
   const int rows = (int(tiles.size()) + columns - 1) / columns;
   OIIO::ImageBuf image(
       OIIO::ImageSpec(columns * across + kMargin, rows * down + kMargin, 3, OIIO::TypeDesc::UINT8));
-  const std::array<float, 3> paper{kPaper, kPaper, kPaper};
+  const std::array<float, 3> paper{kPaper, kPaper, kPaper}, ink{kInk, kInk, kInk};
   OIIO::ImageBufAlgo::fill(image, paper);
   const std::string font = find_font();
+  const int letters = font.empty() ? size : fitting_size(tiles, font, width, size);
   for (int i = 0; i < int(tiles.size()); ++i) {
     const int x = kMargin + i % columns * across, y = kMargin + i / columns * down;
     const SheetTile& tile = tiles[std::size_t(i)];
@@ -53,7 +54,9 @@ Sheet make_sheet(const std::vector<SheetTile>& tiles, int width, int height, int
       image.set_pixels(OIIO::ROI(x, x + width, y, y + height, 0, 1, 0, 3), OIIO::TypeDesc::UINT8,
                        tile.pixels.data());
     if (!font.empty() && !tile.caption.empty())
-      write_caption(image, tile.caption, font, x, y + height + strip / 2, width, size);
+      OIIO::ImageBufAlgo::render_text(image, x + width / 2, y + height + strip / 2, tile.caption,
+                                      letters, font, ink, OIIO::ImageBufAlgo::TextAlignX::Center,
+                                      OIIO::ImageBufAlgo::TextAlignY::Center);
   }
   Sheet sheet{image.spec().width, image.spec().height, {}, !font.empty()};
   sheet.pixels.resize(std::size_t(sheet.width) * std::size_t(sheet.height) * 3);

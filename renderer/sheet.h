@@ -20,8 +20,8 @@ struct Sheet {
   bool captions = true;  ///< false where no font was found: then the strips are empty
 };
 
-/// `tiles` of width x height pixels in rows of `columns`; each caption stands below its tile, small
-/// enough to fit.
+/// `tiles` of width x height pixels in rows of `columns`; each caption stands below its tile, all
+/// of one size that fits.
 Sheet make_sheet(const std::vector<SheetTile>& tiles, int width, int height, int columns);
 
 }  // namespace mms::renderer

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/command.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <system_error>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include "lang/diagnostics.h"
@@ -36,10 +38,21 @@ CLI::Option* add_value(CLI::App& app, const Option& o) {
   return app.add_flag(fmt::format("{}{{{}}}", o.names, o.bare), text, o.doc);
 }
 
+/// Empty if `word` is one that the option takes; else what is wrong, and on a second line what to
+/// try.
+std::string no_such_word(const Option& o, const std::string& word) {
+  if (std::ranges::find(o.words, word) != o.words.end()) return "";
+  const std::string near = lang::nearest(word, o.words);
+  return fmt::format("`{}` is none of its words\n{}{}", word,
+                     near.empty() ? "" : fmt::format("did you mean `{}`? ", near),
+                     fmt::format("there are: {}", fmt::join(o.words, ", ")));
+}
+
 void add_option(CLI::App& app, const Option& o) {
   CLI::Option* option = add_value(app, o);
   if (!std::holds_alternative<bool*>(o.target) && o.bare.empty()) option->type_name(o.value);
-  if (!o.words.empty()) option->check(CLI::IsMember(o.words).description(""));
+  if (!o.words.empty())
+    option->check(CLI::Validator([&o](std::string& word) { return no_such_word(o, word); }, ""));
   if (o.required) option->required();
 }
 
@@ -63,7 +76,11 @@ void build(CLI::App& app, const std::vector<Verb>& verbs, Exit& exit) {
 Exit usage_error(const CLI::App& app, const CLI::ParseError& e, const std::string& word) {
   for (const CLI::App* verb : app.get_subcommands()) {
     const std::string name = "mms " + verb->get_name();
-    print_error({name, e.what(), fmt::format("`{} --help` shows the options", name)});
+    const std::string text = e.what();
+    const std::size_t end = text.find('\n');
+    print_error({name, text.substr(0, end),
+                 end == text.npos ? fmt::format("`{} --help` shows the options", name)
+                                  : text.substr(end + 1)});
     return Exit::Usage;
   }
   if (word.empty() || word[0] == '-') {

@@ -191,6 +191,16 @@ TEST_CASE("unknown verb, option or message code") {
   check_message(folder.mms("eval --set 'position=[1,2]' 1"), 2, "--set $position", "real[3]");
 }
 
+TEST_CASE("a word that an option does not take") {
+  const Folder folder;
+  check_message(folder.mms("render x.mms --filter=gausian"), 2, "--filter",
+                "did you mean `gaussian`? there are: box, gaussian, blackman-harris");
+  check_message(folder.mms("render x.mms --sampler halton"), 2, "--sampler", "`halton`");
+  check_message(folder.mms("render x.mms --estimator bdpt"), 2, "--estimator", "unweighted");
+  check_message(folder.mms("compare a.png b.png --measure flip"), 2, "--measure", "dssim");
+  check_message(folder.mms("check -O3 x.mms"), 2, "-O", "there are: 0, 1, 2");
+}
+
 #if MMS_RENDERER
 
 TEST_CASE("unknown surface and volume") {
@@ -240,6 +250,25 @@ TEST_CASE("a scene that is missing, or with an unknown key") {
   check_message(folder.mms("render good.mms -o out.png --scene scene.json" + std::string(kSmall)),
                 1, "scene.json", "");
   CHECK(folder.file_count() == 2);
+}
+
+TEST_CASE("pictures and meshes that are missing or broken") {
+  const Folder folder;
+  check_message(folder.mms("compare a.png b.png"), 3, "a.png", "there is no such picture");
+  folder.write("good.mms", kGood);
+  folder.write("scene.json", R"({"environment": {"image": "sky.exr"},
+                                 "objects": [{"sphere": {}, "test": true}]})");
+  const std::string render = "render good.mms -o out.png --scene scene.json" + std::string(kSmall);
+  check_message(folder.mms(render), 1, "scene.json: environment.image",
+                "no picture file `sky.exr`");
+  CHECK(contains(folder.mms(render).err, "relative to the scene file"));
+  folder.write("sky.exr", "v/1");
+  check_message(folder.mms(render), 1, "scene.json: environment.image", "cannot read the picture");
+  folder.write("scene.json", R"({"objects": [{"mesh": "m.obj", "test": true}]})");
+  folder.write("m.obj", "v");
+  check_message(folder.mms(render), 1, "m.obj", "cannot read the mesh");
+  check_message(folder.mms("render good.mms -o out.tiff"), 3, "out.tiff", ".film");
+  CHECK_FALSE(folder.has("out.png"));
 }
 
 TEST_CASE("endless recursion, rendered") {
