@@ -313,7 +313,7 @@ struct InterfaceLoss {
     const R mean = mean_unit(alpha * alpha) *
                    std::max(R(tables->least_mean), interpolate(tables->mean[falls()], a,
                                                                coefficients(kIndex[falls()]), n));
-    return ax == ay ? mean : mean * mean_ratio(alpha);
+    return ax == ay ? mean : mean * std::max(R(0.5), mean_ratio(alpha));  // in truth above 1
   }
 
   StretchedInterface<R> stretched(Vec3<R> w) const {
@@ -333,7 +333,10 @@ struct InterfaceLoss {
   }
 
  private:
-  static R limited(R l, R least) { return l > least ? std::min(l, R(1)) : std::max(least, R(0)); }
+  static R limited(R l, R least) {
+    const R from = least > 0 ? least : R(0);
+    return l > from ? std::min(l, R(1)) : from;
+  }
   int falls() const { return eta < 1; }
 
   /// Of l from that of round facets, over its scale.
