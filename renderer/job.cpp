@@ -26,7 +26,7 @@ constexpr std::size_t kExplained = 64;
 std::uint32_t asked_after(std::uint32_t samples) {
   if (samples < kFirstAsked) return kFirstAsked;
   const std::uint32_t octave = std::uint32_t(1) << (31 - __builtin_clz(samples));
-  return samples + std::max(8u, octave / 4);
+  return samples + octave / 4;
 }
 
 /// Where scripts run many paths are worked on together, for full batches; but every thread

@@ -2,6 +2,7 @@
 #include "renderer/samples.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 
 #include "renderer/error.h"
@@ -9,9 +10,13 @@
 namespace mms::renderer {
 namespace {
 
-/// Past the first passes: with 16 x 16 pixels, 2048 paths in a chunk.
+/// Samples of the passes from kFirstFullPass on: with 16 x 16 pixels, 2048 paths in a chunk.
 constexpr std::uint32_t kSamplesOfPass = 8;
-constexpr int kFirstFullPass = 4;
+/// The first of the passes that are quarters of an octave, and the sample it begins with.
+constexpr int kFirstQuarter = 4;
+constexpr std::uint32_t kFirstOfQuarters = 8;
+constexpr int kFirstFullPass = 12;
+constexpr std::uint32_t kFirstOfFull = 32;
 
 }  // namespace
 
@@ -86,15 +91,24 @@ Film PartialFilm::develop() const {
 
 SampleSet::Range pass_range(int pass) {
   if (pass == 0) return {0, 1};
-  if (pass < kFirstFullPass) return {1u << (pass - 1), 1u << pass};
-  const std::uint32_t first = std::uint32_t(pass - kFirstFullPass + 1) * kSamplesOfPass;
+  if (pass < kFirstQuarter) return {1u << (pass - 1), 1u << pass};
+  if (pass < kFirstFullPass) {
+    const int octave = (pass - kFirstQuarter) / 4, quarter = (pass - kFirstQuarter) % 4;
+    const std::uint32_t size = (kFirstOfQuarters / 4) << octave;
+    const std::uint32_t first = size * std::uint32_t(4 + quarter);
+    return {first, first + size};
+  }
+  const std::uint32_t first = kFirstOfFull + std::uint32_t(pass - kFirstFullPass) * kSamplesOfPass;
   return {first, first + kSamplesOfPass};
 }
 
 int pass_of(std::uint32_t number) {
-  if (number == 0) return 0;
-  if (number < kSamplesOfPass) return 32 - __builtin_clz(number);
-  return int(number / kSamplesOfPass) - 1 + kFirstFullPass;
+  if (number >= kFirstOfFull) return kFirstFullPass + int((number - kFirstOfFull) / kSamplesOfPass);
+  const int digits = std::bit_width(number);
+  if (number < kFirstOfQuarters) return digits;
+  const int octave = digits - std::bit_width(kFirstOfQuarters);
+  const std::uint32_t size = (kFirstOfQuarters / 4) << octave;
+  return kFirstQuarter + 4 * octave + int(number / size) - 4;
 }
 
 }  // namespace mms::renderer

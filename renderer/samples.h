@@ -54,7 +54,8 @@ struct PartialFilm {
 };
 
 /// The passes that a picture is made in, each over all tiles: [0, 1), [1, 2), [2, 4), [4, 8), then
-/// eight samples each. The first shows something soon; none lies in two blocks of the film.
+/// quarters of an octave up to 32, then eight samples each. The first shows something soon; none
+/// lies in two blocks of the film.
 SampleSet::Range pass_range(int pass);
 /// The pass that sample `number` is in.
 int pass_of(std::uint32_t number);
