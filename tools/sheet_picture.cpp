@@ -151,10 +151,12 @@ Exit render_sheet(const RenderRequest& request) {
     done += exit == Exit::Ok;
     worst = std::max(worst, exit);
   }
+  const int count = int(tiles.size());
+  const bool cut = interrupted() && done < count;
+  if (cut) worst = Exit::Interrupted;
   if (std::all_of(tiles.begin(), tiles.end(), [](const auto& t) { return t.pixels.empty(); }))
     return worst;
   // A sweep of few steps stays in one row; a row for each script.
-  const int count = int(tiles.size());
   const bool rows = *sweep && (*sweep)->steps <= kMostColumns;
   const int columns =
       rows ? (*sweep)->steps : std::min(kMostColumns, int(std::ceil(std::sqrt(count))));
@@ -164,7 +166,7 @@ Exit render_sheet(const RenderRequest& request) {
   if (!sheet.captions && !request.quiet)
     fmt::print(stderr, "note: {}: no captions, since there is no font: install fonts-dejavu-core\n",
                path);
-  if (interrupted())
+  if (cut)
     fmt::print(stderr, "stopped: {} has {} of {} pictures in full\n", path, done, count);
   else if (!request.quiet && !request.json())
     fmt::print("{}: {}{} pictures of {}x{}\n", path,

@@ -266,7 +266,7 @@ TEST_CASE("pictures and meshes that are missing or broken") {
   check_message(folder.mms(render), 1, "scene.json: environment.image", "cannot read the picture");
   folder.write("scene.json", R"({"objects": [{"mesh": "m.obj", "test": true}]})");
   folder.write("m.obj", "v");
-  check_message(folder.mms(render), 1, "m.obj", "cannot read the mesh");
+  check_message(folder.mms(render), 1, "scene.json: objects[0].mesh", "cannot read the mesh");
   check_message(folder.mms("render good.mms -o out.tiff"), 3, "out.tiff", ".film");
   CHECK_FALSE(folder.has("out.png"));
 }
