@@ -28,11 +28,10 @@ constexpr int kDivisions = 3;
 /// that was drawn cost more than another direction.
 constexpr int kDirectionsOfFirst = 2;
 
-/// Scattering events up to which each of few lights is drawn.
-constexpr int kBouncesOfEachLight = 2;
-
-/// Directions that are drawn towards each light there unless the surface is matte: where a glossy
-/// one mirrors a lamp about as wide as its lobe they differ most.
+/// Scattering events up to which each of few lights is drawn: more where the surface is not matte,
+/// and then in several directions, as those differ most where it mirrors a lamp about as wide as
+/// its lobe.
+constexpr int kEachLightOfEven = 1, kEachLightOfUneven = 2;
 constexpr int kDrawsOfUneven = 4;
 
 /// Paths are given up below this mean contribution only: in glass of index n radiance is 1 / n^2 of
@@ -342,7 +341,9 @@ void Integrator::scatter(const Vertex& v, Scatterer s) {
   int draws = 0;
   if (s.can_connect()) {
     if (p.depth == 1 && !s.medium) s.directions = kDirectionsOfFirst;
-    if (p.depth <= kBouncesOfEachLight && world_.each_light) draws = s.even() ? 1 : kDrawsOfUneven;
+    const bool even = s.even();
+    if (p.depth <= (even ? kEachLightOfEven : kEachLightOfUneven) && world_.each_light)
+      draws = even ? 1 : kDrawsOfUneven;
     if (world_.lights.any()) connect(v, s, draws);
   }
   go_on(v, s, draws);
