@@ -2,26 +2,25 @@
 #pragma once
 
 /// \file
-/// `dielectric` and `beckmann_dielectric`: an interface that reflects by Fresnel and refracts the
-/// rest, ideal at roughness 0, else GGX or Beckmann facets (Walter et al. 2007). Each wavelength
-/// has its own index, so a rough direction is looked up with a different half vector for each: that
-/// is what the hypothetical pdfs hold. What facets send on to other facets is given back on both
-/// sides (materials/energy.h).
+/// `dielectric`: an interface that reflects by Fresnel and refracts the rest, ideal at roughness 0,
+/// else GGX facets (Walter et al. 2007). Each wavelength has its own index, so a rough direction is
+/// looked up with a different half vector for each: that is what the hypothetical pdfs hold. What
+/// facets send on to other facets is given back on both sides (materials/energy.h).
 
 #include "materials/fresnel.h"
 #include "materials/microfacet.h"
 
 namespace mms::materials {
 
-template <class R, template <class> class Distribution>
-struct RoughInterface {
+template <class R>
+struct Dielectric {
   const R* ior;
-  Distribution<R> facets;
+  Ggx<R> facets;
   Spectrum<R> reflected, transmitted;
 
-  RoughInterface(const R* p, R anisotropy)
+  explicit Dielectric(const R* p)
       : ior(p),
-        facets{Alpha<R>::from(p[kWavelengths], anisotropy)},
+        facets{Alpha<R>::from(p[kWavelengths], p[3 * kWavelengths + 1])},
         reflected(weight_at(p + kWavelengths + 1)),
         transmitted(weight_at(p + 2 * kWavelengths + 1)) {}
 
@@ -120,8 +119,8 @@ struct RoughInterface {
   Bounces bounces(int j, Vec3<R> wo, Vec3<R> wi) const {
     Bounces b;
     b.eta = rough_eta(j, wo);
-    const InterfaceLoss<R> here{&facets.interface(), facets.ax, facets.ay, b.eta},
-        there{&facets.interface(), facets.ax, facets.ay, 1 / b.eta};
+    const InterfaceLoss<R> here{&kGgxInterface, facets.ax, facets.ay, b.eta},
+        there{&kGgxInterface, facets.ax, facets.ay, 1 / b.eta};
     const bool reflects = same_side(wo, wi);
     const R mean_here = here.mean(), mean_there = there.mean();
     b.lost = here.at(wo);
@@ -191,15 +190,6 @@ struct RoughInterface {
     }
     return out;
   }
-};
-
-template <class R>
-struct Dielectric : RoughInterface<R, Ggx> {
-  explicit Dielectric(const R* p) : RoughInterface<R, Ggx>(p, p[3 * kWavelengths + 1]) {}
-};
-template <class R>
-struct BeckmannDielectric : RoughInterface<R, Beckmann> {
-  explicit BeckmannDielectric(const R* p) : RoughInterface<R, Beckmann>(p, R(0)) {}
 };
 
 }  // namespace mms::materials

@@ -23,9 +23,6 @@ const float* const kFresnelProduct = kFresnelProductTable;
 const InterfaceTables kGgxInterface{{kGgxDense, kGgxRare},
                                     {kGgxDenseMean, kGgxRareMean},
                                     {kGgxDenseStretched, kGgxRareStretched},
-                                    {kGgxDenseStretchedMean, kGgxRareStretchedMean},
-                                    0.1f};
-const InterfaceTables kBeckmannInterface{
-    {kBeckmannDense, kBeckmannRare}, {kBeckmannDenseMean, kBeckmannRareMean}, {}, {}, 0.003f};
+                                    {kGgxDenseStretchedMean, kGgxRareStretchedMean}};
 
 }  // namespace mms::materials

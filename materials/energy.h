@@ -27,17 +27,16 @@ struct FacetTables {
 };
 extern const FacetTables kGgxTables, kBeckmannTables;
 
-/// The same of facets of a lossless dielectric, reflection and refraction together: [0] where the
-/// index rises on the far side, [1] where it falls. What is said of stretched facets is how they
-/// differ from round ones (InterfaceLoss), so that few nodes do.
+/// The same of GGX facets of a lossless dielectric, reflection and refraction together: [0] where
+/// the index rises on the far side, [1] where it falls. What is said of stretched facets is how
+/// they differ from round ones (InterfaceLoss), so that few nodes do.
 struct InterfaceTables {
   const float* loss[2];            ///< [alpha][index][direction], isotropic
   const float* mean[2];            ///< [alpha][index], isotropic, over `mean_unit`
-  const float* stretched[2];       ///< [alpha][aspect][azimuth][index][direction]; null: not known
+  const float* stretched[2];       ///< [alpha][aspect][azimuth][index][direction]
   const float* stretched_mean[2];  ///< [alpha][aspect][index], over the mean of round facets
-  float least_mean;                ///< over `mean_unit`: less than any mean is in truth
 };
-extern const InterfaceTables kGgxInterface, kBeckmannInterface;
+extern const InterfaceTables kGgxInterface;
 
 /// Mean Fresnel reflectance over the directions that a coat's lobe scatters to, minus that at the
 /// direction it scatters from, for indices above 1: [gloss][index][direction] of `glossy`,
@@ -288,8 +287,8 @@ struct StretchedInterface {
   R limited(R width) const { return width / (1 + (width - root())); }
 };
 
-/// The loss of a rough dielectric of relative index `eta` (far side over near side). `ax`, `ay` > 0
-/// and alike where the tables know no stretched facets.
+/// The loss of a rough dielectric of relative index `eta` (far side over near side). `ax`, `ay` >
+/// 0.
 template <class R>
 struct InterfaceLoss {
   const InterfaceTables* tables;
@@ -304,15 +303,16 @@ struct InterfaceLoss {
     return limited(like + f.scale() * difference(f), like / 20);  // in truth no less than a twelfth
   }
 
-  /// m in (0, 1). Its table rings next to alpha = 0 for indices below 1/4: see `least_mean`.
+  /// m in (0, 1). Its table rings next to alpha = 0 for indices below 1/4; in truth no mean is less
+  /// than 0.15 of the unit.
   R mean() const {
     using namespace axes;
     const R alpha = ax == ay ? ax : std::sqrt(ax * ay);
     const auto a = Stencil<R>::at(log_alpha(alpha), kInterfaceMean);
     const auto n = Stencil<R>::at(index(eta), kIndex[falls()]);
-    const R mean = mean_unit(alpha * alpha) *
-                   std::max(R(tables->least_mean), interpolate(tables->mean[falls()], a,
-                                                               coefficients(kIndex[falls()]), n));
+    const R mean =
+        mean_unit(alpha * alpha) *
+        std::max(R(0.1), interpolate(tables->mean[falls()], a, coefficients(kIndex[falls()]), n));
     return ax == ay ? mean : mean * std::max(R(0.5), mean_ratio(alpha));  // in truth above 1
   }
 

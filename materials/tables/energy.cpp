@@ -119,12 +119,11 @@ double from_log(double x) { return std::pow(axes::kMinMeanAlpha, 1 - x); }
 struct RoundInterface {
   std::vector<float> loss, mean;
   InterfaceTables tables() const {
-    return {{loss.data(), loss.data()}, {mean.data(), mean.data()}, {}, {}, 0.1f};
+    return {{loss.data(), loss.data()}, {mean.data(), mean.data()}, {}, {}};
   }
 };
 
-template <template <class> class Distribution>
-RoundInterface write_interface(std::FILE* to, const std::string& name, bool rising, int angles) {
+RoundInterface write_interface(std::FILE* to, const std::string& name, bool rising) {
   using namespace axes;
   RoundInterface round;
   round.loss = write(
@@ -135,8 +134,7 @@ RoundInterface write_interface(std::FILE* to, const std::string& name, bool risi
           return interface_direction(z, s, a, eta);
         });
         const double z = std::max(c, kLeast * a);
-        return interface_loss(Distribution<double>{{a, a}}, eta, {std::sqrt(1 - z * z), 0, z},
-                              angles);
+        return interface_loss(Ggx<double>{{a, a}}, eta, {std::sqrt(1 - z * z), 0, z}, kAngles);
       }));
   const InterfaceTables tables = round.tables();
   round.mean = write(
@@ -158,7 +156,7 @@ double bent_index_at(double place, bool rising) {
   return index_at(place * std::pow(0.6, 0.25), rising);
 }
 
-/// GGX only: what stretched facets lose other than the round ones of the tables. Coarse: 48 angles
+/// What stretched facets lose other than the round ones of the tables. Coarse: 48 angles
 /// of 8 points find a loss within 1e-3.
 void write_stretched_interface(std::FILE* to, const std::string& name, bool rising,
                                const RoundInterface& round) {
@@ -306,11 +304,9 @@ int main(int argc, char** argv) {
     tables::write_facets<Beckmann>(to, "kBeckmann");
     tables::write_coat(to);
     for (const bool rising : {true, false}) {
-      const std::string side = rising ? "Dense" : "Rare";
-      const auto round = tables::write_interface<Ggx>(to, "kGgx" + side, rising, tables::kAngles);
-      tables::write_stretched_interface(to, "kGgx" + side, rising, round);
-      // The edge of total reflection, where the index falls, asks for more.
-      tables::write_interface<Beckmann>(to, "kBeckmann" + side, rising, rising ? 96 : 192);
+      const std::string name = rising ? "kGgxDense" : "kGgxRare";
+      tables::write_stretched_interface(to, name, rising,
+                                        tables::write_interface(to, name, rising));
     }
   });
 }

@@ -44,8 +44,6 @@ std::vector<Material> extreme_materials() {
     m.push_back(dielectric(ramp(0.9, 1.1), r));
     for (double ior : {1 + 1e-7, 1.001, 1.5, 0.25, 1e20})
       for (double a : {1.0, -1.0}) m.push_back(dielectric(ior, r, 1, 1, a));
-    for (double ior : {1 + 1e-7, 1 - 1e-7, 1.0, 1.001, 1.5, 4.0, 0.25, 1e-9, 1e20})
-      m.push_back(beckmann_dielectric(ior, r));
   }
   for (double g = 1e-12; g < 1e12; g *= 30) {
     m.push_back(glossy(1, g));
@@ -83,7 +81,6 @@ std::vector<Material> extreme_materials() {
     m.push_back(dielectric(bad, 0.2));
     m.push_back(dielectric(1.5, bad));
     m.push_back(dielectric(1.5, 0.2, 1, 1, bad));
-    m.push_back(beckmann_dielectric(bad, bad));
     m.push_back(mix(matte(0.2), mirror(0.5), bad));
     if (!std::isinf(bad)) m.push_back(scale(matte(0.2), bad));
   }

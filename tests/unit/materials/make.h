@@ -114,9 +114,6 @@ inline Material dielectric(Value ior, double roughness = 0, Value r = 1, Value t
   m.numbers.push_back(anisotropy);
   return m;
 }
-inline Material beckmann_dielectric(Value ior, double roughness = 0, Value r = 1, Value t = 1) {
-  return interface(Lobe::BeckmannDielectric, ior, roughness, r, t);
-}
 inline Material phong_glass(Value ior, double n, Value r = 1, Value t = 1) {
   return interface(Lobe::PhongGlass, ior, n, r, t);
 }
