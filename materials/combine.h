@@ -231,6 +231,30 @@ struct LayerLeaves {
   }
 };
 
+/// The weights of the children of a `mix`, `scale` or `add`, whose factors are numbers; whether the
+/// node is one.
+template <class R, class Weight>
+inline bool weigh_by_numbers(const Layout::Node& node, const R* p, int i, Weight* w) {
+  const int a = node.children[0], b = node.children[1];
+  switch (node.lobe) {
+    case Lobe::Mix: {
+      Spectrum<R> second;
+      for (int j = 0; j < kWavelengths; ++j) second[j] = limited(p[j], R(0), R(1));
+      w[a] = w[i] * (Spectrum<R>(R(1)) - second);
+      w[b] = w[i] * second;
+      return true;
+    }
+    case Lobe::Scale:
+      w[a] = w[i] * weight_at(p);
+      return true;
+    case Lobe::Add:
+      w[a] = w[b] = w[i];
+      return true;
+    default:
+      return false;
+  }
+}
+
 }  // namespace detail
 
 /// Factors for the pair of directions, for every node.
@@ -244,20 +268,8 @@ inline void weigh(const Layout& layout, const R* params, R cos_o, R cos_i, Mode 
     const Layout::Node& node = nodes[i];
     const R* p = params + node.first_param;
     const int a = node.children[0], b = node.children[1];
+    if (detail::weigh_by_numbers(node, p, i, w.data())) continue;
     switch (node.lobe) {
-      case Lobe::Mix: {
-        Spectrum<R> second;
-        for (int j = 0; j < kWavelengths; ++j) second[j] = limited(p[j], R(0), R(1));
-        w[a] = w[i] * (Spectrum<R>(R(1)) - second);
-        w[b] = w[i] * second;
-        break;
-      }
-      case Lobe::Scale:
-        w[a] = w[i] * weight_at(p);
-        break;
-      case Lobe::Add:
-        w[a] = w[b] = w[i];
-        break;
       case Lobe::Layer: {
         const detail::LayerLeaves<R> left(layout, params, node);
         w[a] = w[i] * Spectrum<R>(left.weight);
@@ -321,20 +333,8 @@ inline void weigh_for_choice(const Layout& layout, const R* params, R cos_o,
     const Layout::Node& node = nodes[i];
     const R* p = params + node.first_param;
     const int a = node.children[0], b = node.children[1];
+    if (detail::weigh_by_numbers(node, p, i, w.data())) continue;
     switch (node.lobe) {
-      case Lobe::Mix:
-        for (int j = 0; j < kWavelengths; ++j) {
-          const R t = limited(p[j], R(0), R(1));
-          w[a][j] = w[i][j] * (1 - t);
-          w[b][j] = w[i][j] * t;
-        }
-        break;
-      case Lobe::Scale:
-        w[a] = w[i] * weight_at(p);
-        break;
-      case Lobe::Add:
-        w[a] = w[b] = w[i];
-        break;
       case Lobe::Layer: {
         const detail::LayerLeaves<R> left(layout, params, node);
         w[a] = w[i] * left.weight;

@@ -80,8 +80,8 @@ double mean_loss(const Loss& loss, double alpha2, int azimuths) {
 
 /// The loss at one facet's interface of relative index `eta`: what it reflects or refracts and
 /// other facets then take, or what leaves to the wrong side.
-template <int Points = 16, class Facets>
-double interface_loss(const Facets& facets, double eta, Vec3d wo, int angles) {
+template <int Points = 16>
+double interface_loss(const Ggx<double>& facets, double eta, Vec3d wo, int angles) {
   const double z = wo.z, so = facets.shadow(wo);
   const auto hidden = [&](Vec3d wi) {  // G2 / G1 away from 1
     const double s = z * facets.shadow(wi), c = std::abs(wi.z);

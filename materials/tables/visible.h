@@ -23,16 +23,14 @@ double integrate_crowded(const F& f, double a, double b) {
 }
 
 /// Integral of f over [a, b], cut where one of `edges(x)` changes its sign, `Points` to a part. Two
-/// changes within one of `Scan` steps are not seen: steps are even, or finer towards both ends.
-template <int Points, int Scan, bool Crowded, class F, class Edges>
+/// changes within one of the steps are not seen.
+template <int Points, class F, class Edges>
 double integrate_between_edges(const F& f, const Edges& edges, double a, double b) {
-  const auto place = [&](int i) {
-    const double s = double(i) / Scan;
-    return Crowded ? a + (b - a) * s * s * (3 - 2 * s) : a + (b - a) * i / Scan;
-  };
+  constexpr int kSteps = 8;
+  const auto place = [&](int i) { return a + (b - a) * i / kSteps; };
   std::vector<double> cuts{a};
   auto before = edges(a);
-  for (int i = 1; i <= Scan; ++i) {
+  for (int i = 1; i <= kSteps; ++i) {
     const double x = place(i);
     const auto here = edges(x);
     for (std::size_t k = 0; k < here.size(); ++k) {
@@ -87,15 +85,14 @@ double visible_mean(const Ggx<double>& ggx, Vec3d wo, const F& f, const Edges& e
       const double r = std::sqrt(std::max(0.0, low * (1 - w.z + rise)));
       return normalize(Vec3d{ggx.ax * (r * c + w.x), ggx.ay * (r * s + w.y), rise});
     };
-    return integrate_between_edges<Points, 8, false>(
-        [&](double x) { return 4 * x * x * x * f(normal(x)); },
-        [&](double x) { return edges(normal(x)); }, 1e-3, 1);
+    return integrate_between_edges<Points>([&](double x) { return 4 * x * x * x * f(normal(x)); },
+                                           [&](double x) { return edges(normal(x)); }, 1e-3, 1);
   };
   return turn_mean(ray, std::atan2(w.y, w.x), angles, ggx.ax == ggx.ay);
 }
 
 /// The same of Beckmann's, over slopes as polar coordinates.
-template <int Points = 16, class F, class Edges>
+template <class F, class Edges>
 double visible_mean(const Beckmann<double>& facets, Vec3d wo, const F& f, const Edges& edges,
                     int angles) {
   const double t = facets.tangent(wo), l = std::hypot(t, wo.z), c = wo.z / l, s = t / l;
@@ -107,8 +104,7 @@ double visible_mean(const Beckmann<double>& facets, Vec3d wo, const F& f, const 
       return normalize(Vec3d{-facets.ax * u * r, -facets.ay * v * r, 1});
     };
     const double end = s * x * reach > c ? c / (s * x) : reach;  // facets that face away
-    // Total reflection begins next to the facets that only just face the direction.
-    return integrate_between_edges<Points, 12, true>(
+    return integrate_between_edges<16>(
         [&](double r) { return 2 * r * std::exp(-r * r) * (c - s * x * r) * f(normal(r)); },
         [&](double r) { return edges(normal(r)); }, 0, end);
   };
