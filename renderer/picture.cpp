@@ -57,7 +57,9 @@ std::vector<Channels> channels_of(const Picture& picture) {
                    const Vec3d rgb = materials::linear_srgb_of_xyz({p[0], p[1], p[2]});
                    for (int k = 0; k < 3; ++k) to[k] = float(rgb[k]);
                  }});
-  all.push_back(number("variance", film.variance));
+  // One sample does not tell how far it may be off.
+  if (std::ranges::any_of(film.samples, [](std::uint32_t n) { return n > 1; }))
+    all.push_back(number("variance", film.variance));
   if (!film.samples.empty()) all.push_back(number("samples", film.samples));
   if (!film.dropped.empty()) all.push_back(number("dropped", film.dropped));
   if (const Layers* l = picture.layers) {

@@ -13,6 +13,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -64,16 +65,15 @@ struct Scratch {
 constexpr std::string_view kSameMean[] = {"--error", "--estimator", "--sampler",
                                           "--seed",  "--threads",   "--time"};
 
-/// `filter=box max-depth=8` as words for the shell: `--filter=box --max-depth=8`. All of them, or
-/// those that change the mean.
-std::string switches(const std::string& text, bool all = true) {
+/// `filter=box max-depth=8` as words for the shell: `--filter=box --max-depth=8`, all but those
+/// named by `left_out`.
+std::string switches(const std::string& text, std::span<const std::string_view> left_out = {}) {
   std::string words;
   std::istringstream in(text);
   for (std::string word; in >> word;) {
     if (!word.starts_with("-")) word = "--" + word;
     const std::string_view name = std::string_view(word).substr(0, word.find('='));
-    if (all || std::ranges::find(kSameMean, name) == std::end(kSameMean))
-      words += " " + tools::quoted(word);
+    if (std::ranges::find(left_out, name) == left_out.end()) words += " " + tools::quoted(word);
   }
   return words;
 }
@@ -97,15 +97,19 @@ void show_messages(const ConvergeRequest& request, const std::string& command,
   }
 }
 
-/// Renders with the switches `more`; empty after saying what is wrong.
+/// Renders with the switches `more`, and with `seed` instead of that of `--with`; empty after
+/// saying what is wrong.
 std::optional<Run> render(const ConvergeRequest& request, const std::string& path, int samples,
                           const std::string& more, Exit& exit, const std::string& seed = "") {
   std::error_code ignored;
   std::string command = quoted(fs::read_symlink("/proc/self/exe", ignored).string()) + " render";
   for (const std::string& file : request.files) command += " " + quoted(file);
   command += fmt::format(" --samples {} --checkpoint 0 -o {}", samples, quoted(path));
-  for (const std::string& text : request.with) command += switches(text);
-  command += more + seed;
+  constexpr std::string_view kSeed[] = {"--seed"};
+  for (const std::string& text : request.with)
+    command += seed.empty() ? switches(text) : switches(text, kSeed);
+  command += more;
+  if (!seed.empty()) command += " --seed " + seed;
   const auto give_up = [&](Exit code, const Error& error) {
     exit = fail(code, error, request);
     return std::nullopt;
@@ -139,10 +143,10 @@ class References {
 
   /// The truth of a curve; null after saying what is wrong.
   const Run* of(const std::string& curve, const fs::path& folder, Exit& exit) {
-    const std::string key = switches(curve, false);
+    const std::string key = switches(curve, kSameMean);
     if (const auto known = runs_.find(key); known != runs_.end()) return &known->second;
     auto run = render(request_, (folder / "reference.exr").string(), request_.reference_samples,
-                      key, exit, std::string(" --seed ") + kReferenceSeed);
+                      key, exit, kReferenceSeed);
     return run ? &runs_.emplace(key, std::move(*run)).first->second : nullptr;
   }
 

@@ -175,7 +175,8 @@ Exit render_one(RenderRequest request, const std::string& file, const std::strin
 Exit render_turn(RenderRequest request, const std::string& file, const std::string& path) {
   const fs::path name(path);
   Exit worst = Exit::Ok;
-  for (int i = 0; i < request.frames && !interrupted(); ++i) {
+  for (int i = 0; i < request.frames; ++i) {
+    if (interrupted()) return Exit::Interrupted;
     request.turn = 2 * std::numbers::pi * i / request.frames;
     fs::path frame = name;
     frame.replace_extension(fmt::format("{:03}{}", i, name.extension().string()));
@@ -247,9 +248,9 @@ Exit render_pictures(const RenderRequest& request) {
   }
   Exit worst = Exit::Ok;
   for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (interrupted()) return Exit::Interrupted;
     const auto render = request.frames > 0 ? render_turn : render_one;
     worst = std::max(worst, render(request, request.files[i], paths[i]));
-    if (interrupted()) break;
   }
   return worst;
 }

@@ -28,6 +28,10 @@ TEST_CASE("compare tells how pictures differ, and ends with 5 above the threshol
   CHECK(json["z"].get<double>() > 0.5);
   CHECK(json["z"].get<double>() < 2);
   CHECK(json["not_finite"] == 0);
+  // One sample does not tell how far it is off.
+  REQUIRE(folder.mms("render s.mms --quiet --size 40x30 --samples 1 -o one.exr").exit == 0);
+  CHECK_FALSE(
+      nlohmann::json::parse(folder.mms("compare one.exr a.exr --format=json").out).contains("z"));
   // A picture and itself; a .png holds what the .exr shows, to half a step of eight bits.
   run = folder.mms("compare a.exr a.exr --threshold 0");
   CHECK(run.exit == 0);
