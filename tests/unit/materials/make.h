@@ -143,16 +143,16 @@ inline Vec3d direction(double degrees, double phi) {
   return {std::sin(a) * std::cos(phi), std::sin(a) * std::sin(phi), std::cos(a)};
 }
 
-/// The same material with wavelengths rotated so that wavelength `j` is the hero.
-inline Material with_hero(const Material& m, int j) {
+/// The same material, whose wavelength `k` is what `from(k)` was.
+template <class From>
+Material with_wavelengths(const Material& m, From from) {
   Material r = m;
   std::size_t at = 0;
   for (const vm::LayoutNode& n : m.tree.nodes) {
     const auto& f = materials::formals(static_cast<Lobe>(n.lobe));
     for (int i = 0; i < f.count; ++i) {
       if (f.kinds[i] == 's') {
-        for (int k = 0; k < kWavelengths; ++k)
-          r.numbers[at + k] = m.numbers[at + (k + j) % kWavelengths];
+        for (int k = 0; k < kWavelengths; ++k) r.numbers[at + k] = m.numbers[at + from(k)];
         at += kWavelengths;
       } else if (f.kinds[i] == 'r') {
         ++at;
@@ -160,6 +160,16 @@ inline Material with_hero(const Material& m, int j) {
     }
   }
   return r;
+}
+
+/// Wavelengths rotated so that wavelength `j` is the hero.
+inline Material with_hero(const Material& m, int j) {
+  return with_wavelengths(m, [j](int k) { return (k + j) % kWavelengths; });
+}
+
+/// Every wavelength as the hero: what the hero alone decides, without working out the others.
+inline Material hero_only(const Material& m) {
+  return with_wavelengths(m, [](int) { return 0; });
 }
 
 }  // namespace mms::test
