@@ -14,6 +14,7 @@
 #include "bench/measure.h"
 #include "bench/suite.h"
 #include "materials/bsdf.h"
+#include "materials/phase.h"
 #include "materials/table.h"
 
 namespace mms::bench {
@@ -21,6 +22,20 @@ namespace {
 
 using materials::Bsdf;
 using materials::Mode;
+
+/// A surface's scattering of radiance, with the face of a volume's.
+template <class R>
+struct Surface {
+  Bsdf<R> bsdf;
+
+  Surface(const materials::Layout& layout, const R* params) : bsdf(layout, params) {}
+  auto eval(Vec3<R> wo, Vec3<R> wi) const { return bsdf.eval(wo, wi, Mode::Radiance); }
+  auto pdf(Vec3<R> wo, Vec3<R> wi) const { return bsdf.pdf(wo, wi, Mode::Radiance); }
+  auto evaluate(Vec3<R> wo, Vec3<R> wi) const { return bsdf.evaluate(wo, wi, Mode::Radiance); }
+  auto sample(Vec3<R> wo, R u, R u1, R u2) const {
+    return bsdf.sample(wo, u, u1, u2, Mode::Radiance);
+  }
+};
 
 constexpr int kHits = 1024, kRounds = 31;
 
@@ -32,7 +47,8 @@ struct Hit {
 };
 
 /// Hits on a material: half of their `wi` are its own samples, half are even over the sphere.
-std::vector<Hit<double>> hits_of(const Bsdf<double>& bsdf) {
+template <class Model>
+std::vector<Hit<double>> hits_of(const Model& model) {
   std::mt19937 random(5);
   const auto number = [&] { return double(random() >> 8) * 0x1p-24; };  // a float, too
   const auto narrow = [](Vec3d v) { return Vec3d{float(v.x), float(v.y), float(v.z)}; };
@@ -41,8 +57,8 @@ std::vector<Hit<double>> hits_of(const Bsdf<double>& bsdf) {
     Hit<double> h{narrow(square_to_cosine_hemisphere(number(), number())),
                   narrow(square_to_sphere(number(), number())),
                   {number(), number(), number()}};
-    const auto s = bsdf.sample(h.wo, number(), number(), number(), Mode::Radiance);
-    if (i % 2 && s && !s->specular) h.wi = narrow(s->wi);
+    const auto s = model.sample(h.wo, number(), number(), number());
+    if (i % 2 && s && model.eval(h.wo, s->wi)[0] > 0) h.wi = narrow(s->wi);
     hits.push_back(h);
   }
   return hits;
@@ -57,12 +73,13 @@ std::vector<Hit<float>> narrow(const std::vector<Hit<double>>& hits) {
 }
 
 /// |float - double| / double over the hits where f is not 0, in units of 2^-24.
-Series errors(const Bsdf<float>& narrow, const Bsdf<double>& exact,
+template <template <class> class Model>
+Series errors(const Model<float>& narrow, const Model<double>& exact,
               const std::vector<Hit<double>>& hits, const std::vector<Hit<float>>& narrow_hits) {
   Series all;
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const double f = exact.eval(hits[i].wo, hits[i].wi, Mode::Radiance)[0];
-    const double g = narrow.eval(narrow_hits[i].wo, narrow_hits[i].wi, Mode::Radiance)[0];
+    const double f = exact.eval(hits[i].wo, hits[i].wi)[0];
+    const double g = narrow.eval(narrow_hits[i].wo, narrow_hits[i].wi)[0];
     if (f > 1e-30) all.push_back(std::abs(g - f) / f * 0x1p24);
   }
   return all;
@@ -75,16 +92,15 @@ struct Costs {
   double batch[3], single[3];  ///< evaluate, pdf, sample
 };
 
+template <template <class> class Model>
 Costs costs(const materials::Layout& layout, const std::vector<float>& numbers,
             const std::vector<Hit<float>>& hits) {
-  const auto evaluate = [&](const Bsdf<float>& b, const Hit<float>& h) {
-    return b.evaluate(h.wo, h.wi, Mode::Radiance).f[0];
+  const auto evaluate = [&](const Model<float>& m, const Hit<float>& h) {
+    return m.evaluate(h.wo, h.wi).f[0];
   };
-  const auto pdf = [&](const Bsdf<float>& b, const Hit<float>& h) {
-    return b.pdf(h.wo, h.wi, Mode::Radiance)[0];
-  };
-  const auto sample = [&](const Bsdf<float>& b, const Hit<float>& h) {
-    const auto s = b.sample(h.wo, h.u[0], h.u[1], h.u[2], Mode::Radiance);
+  const auto pdf = [&](const Model<float>& m, const Hit<float>& h) { return m.pdf(h.wo, h.wi)[0]; };
+  const auto sample = [&](const Model<float>& m, const Hit<float>& h) {
+    const auto s = m.sample(h.wo, h.u[0], h.u[1], h.u[2]);
     return s ? s->f[0] : 0.0f;
   };
   // Each hit with its own numbers, one after the other: throughput.
@@ -94,7 +110,7 @@ Costs costs(const materials::Layout& layout, const std::vector<float>& numbers,
     return [&, call] {
       float sum = 0;
       for (std::size_t i = 0; i < hits.size(); ++i)
-        sum += call(Bsdf<float>(layout, many.data() + i * numbers.size()), hits[i]);
+        sum += call(Model<float>(layout, many.data() + i * numbers.size()), hits[i]);
       sink = sum;
     };
   };
@@ -105,7 +121,7 @@ Costs costs(const materials::Layout& layout, const std::vector<float>& numbers,
       for (std::size_t i = 0; i < hits.size(); ++i) {
         Hit<float> h = hits[i];
         h.wo.x += last * 1e-30f;
-        last = call(Bsdf<float>(layout, numbers.data()), h);
+        last = call(Model<float>(layout, numbers.data()), h);
       }
       sink = last;
     };
@@ -121,35 +137,64 @@ Costs costs(const materials::Layout& layout, const std::vector<float>& numbers,
   return c;
 }
 
-/// The row of a material's example, or nothing for phase functions.
-std::string row_of(const vm::Builtin& row) {
-  if (materials::traits(materials::Lobe(row.lobe)) & materials::PhaseFunction) return "";
-  const vm::Program program = link_text(fmt::format("surface s bsdf = {}; end", row.example));
+/// Variants of models that cost other than their examples.
+constexpr const char* kVariants[] = {
+    "microfacet(0.8, 0.4, 0.8)",
+    "beckmann(0.8, 0.4, 0.8)",
+    "dielectric(1.5, 0.4)",
+    "dielectric(1.5, 0.4, anisotropy = 0.8)",
+    "dielectric(1.45 + 1e-14 / ($wavelength * $wavelength), 0.4)",
+    "dielectric(1.45 + 1e-14 / ($wavelength * $wavelength), 0.4, anisotropy = 0.8)",
+    "coat(conductor(0.2, 3.4, 0.3), matte(0.5))",
+    "coat(mirror(), fresnel_mix(matte(0.5), glossy(1, 40.0)))",
+};
+
+/// A material that a script made.
+struct Made {
+  materials::Layout layout;
+  std::vector<float> numbers;
+};
+
+/// That of a surface, or a volume's, of that expression.
+Made make(std::string_view text, bool volume) {
+  const vm::Program program = link_text(fmt::format(
+      volume ? "volume v scattering = 1; phase = {}; end" : "surface s bsdf = {}; end", text));
   const auto source = api::material_source(program.descriptors.at(0), vm::Output::Material);
-  const materials::Layout layout(*source->layout);
   vm::InputBatch<double> in(vm::Executable(program).width());
   for (int c = 0; c < kWavelengths; ++c)
     in.lanes(vm::Variable::Wavelength, c)[0] = (400 + 50 * c) * 1e-9;
   const std::vector<double> numbers = api::material_numbers(program, *source, in);
-  const std::vector<float> rounded(numbers.begin(), numbers.end());
-  const std::vector<double> same(rounded.begin(), rounded.end());
-  const Bsdf<double> exact(layout, same.data());
+  return {materials::Layout(*source->layout), {numbers.begin(), numbers.end()}};
+}
+
+template <template <class> class Model>
+std::string row_of(std::string_view text, const Made& made) {
+  const std::vector<double> same(made.numbers.begin(), made.numbers.end());
+  const Model<double> exact(made.layout, same.data());
+  const Model<float> rounded(made.layout, made.numbers.data());
   const auto hits = hits_of(exact);
   const auto narrow_hits = narrow(hits);
-  const Series e = errors(Bsdf<float>(layout, rounded.data()), exact, hits, narrow_hits);
-  const Costs c = costs(layout, rounded, narrow_hits);
+  const Series e = errors(rounded, exact, hits, narrow_hits);
+  const Costs c = costs<Model>(made.layout, made.numbers, narrow_hits);
   const std::string error =
       e.empty() ? "| | |" : fmt::format("| {:.1f} | {:.0f} |", median(e), quantile(e, 0.999));
-  return fmt::format("| `{}` | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} {}\n",
-                     row.example, c.batch[0], c.batch[1], c.batch[2], c.single[0], c.single[1],
-                     c.single[2], error);
+  return fmt::format("| `{}` | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} {}\n", text,
+                     c.batch[0], c.batch[1], c.batch[2], c.single[0], c.single[1], c.single[2],
+                     error);
 }
 
 std::string document() {
   std::string table =
       "| material | evaluate | pdf | sample | evaluate alone | pdf alone | sample alone | error, "
       "median | error, 999 of 1000 |\n|---|---|---|---|---|---|---|---|---|\n";
-  for (const vm::Builtin& row : materials::rows()) table += row_of(row);
+  for (const vm::Builtin& row : materials::rows()) {
+    const bool volume =
+        (materials::traits(materials::Lobe(row.lobe)) & materials::PhaseFunction) != 0;
+    const Made made = make(row.example, volume);
+    table +=
+        volume ? row_of<materials::Phase>(row.example, made) : row_of<Surface>(row.example, made);
+  }
+  for (const char* text : kVariants) table += row_of<Surface>(text, make(text, false));
   return fmt::format(
       "## Materials, ns a hit\n\nAll eight wavelengths of a hit in float, the choice among parts "
       "included: the median of {} rounds\nover {} hits, half of whose directions are the model's "

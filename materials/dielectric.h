@@ -46,21 +46,26 @@ struct Dielectric {
   Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode) const {
     const bool reflects = same_side(wo, wi);
     Lobes<R> out = reflects ? evaluate_reflection(wo, wi) : evaluate_transmission(wo, wi, mode);
+    const R pdf = BounceSampling<R>{facets.ax * facets.ay}.pdf(std::abs(wi.z));
     Bounces b;
+    R shape = 0;
     for (int j = 0; j < kWavelengths; ++j) {
-      if (!repeated(j)) b = bounces(j, wo, wi);
+      if (!repeated(j)) {
+        b = bounces(j, wo);
+        shape = b.shape(wi, reflects);
+      }
       const R f = reflects ? b.reflect * reflected[j] : b.transmit * transmitted[j];
       const R scale = reflects || mode == Mode::Importance ? R(1) : 1 / (b.eta * b.eta);
-      out.f[j] += b.lost * f * b.shape * scale;
+      out.f[j] += b.lost * f * shape * scale;
       const Choice c = choose(j, {b.reflect, b.transmit});
-      out.pdf[j] = (1 - b.lost) * out.pdf[j] + b.lost * (reflects ? c.reflect : c.transmit) * b.pdf;
+      out.pdf[j] = (1 - b.lost) * out.pdf[j] + b.lost * (reflects ? c.reflect : c.transmit) * pdf;
     }
     return out;
   }
 
   bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, Vec3<R>& wi) const {
     const Vec3<R> up = to_upper(wo, wo);
-    const Bounces b = bounces(0, wo, wo);
+    const Bounces b = bounces(0, wo);
     if (u_lobe < b.lost) {
       const Choice c = choose(0, {b.reflect, b.transmit});
       if (!(c.reflect + c.transmit > 0)) return false;
@@ -109,25 +114,28 @@ struct Dielectric {
 
   /// All bounces but the first, at one wavelength.
   struct Bounces {
+    R eta = 1;
     R lost = 0;                   ///< by the first, of what comes along wo
     R reflect = 0, transmit = 0;  ///< shares of it; their sum is 1
-    R shape = 0;                  ///< f of a share; of the side of wi
-    R pdf = 0;                    ///< of a share
-    R eta = 1;
+    InterfaceLoss<R> here, there;
+    R mean_here = 0, mean_there = 0;
+
+    /// f of a share along `wi`.
+    R shape(Vec3<R> wi, bool reflects) const {
+      return (reflects ? here : there).at(wi) / (kPi<R> * (reflects ? mean_here : mean_there));
+    }
   };
 
-  Bounces bounces(int j, Vec3<R> wo, Vec3<R> wi) const {
+  Bounces bounces(int j, Vec3<R> wo) const {
     Bounces b;
     b.eta = rough_eta(j, wo);
-    const InterfaceLoss<R> here{&kGgxInterface, facets.ax, facets.ay, b.eta},
-        there{&kGgxInterface, facets.ax, facets.ay, 1 / b.eta};
-    const bool reflects = same_side(wo, wi);
-    const R mean_here = here.mean(), mean_there = there.mean();
-    b.lost = here.at(wo);
-    b.transmit = transmitted_share(mean_here, mean_there, b.eta);
+    b.here = {&kGgxInterface, facets.ax, facets.ay, b.eta};
+    b.there = {&kGgxInterface, facets.ax, facets.ay, 1 / b.eta};
+    b.mean_here = b.here.mean();
+    b.mean_there = b.there.mean();
+    b.lost = b.here.at(wo);
+    b.transmit = transmitted_share(b.mean_here, b.mean_there, b.eta);
     b.reflect = 1 - b.transmit;
-    b.shape = (reflects ? here : there).at(wi) / (kPi<R> * (reflects ? mean_here : mean_there));
-    b.pdf = BounceSampling<R>{facets.ax * facets.ay}.pdf(std::abs(wi.z));
     return b;
   }
 
