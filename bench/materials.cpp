@@ -157,8 +157,8 @@ struct Made {
 
 /// That of a surface, or a volume's, of that expression.
 Made make(std::string_view text, bool volume) {
-  const vm::Program program = link_text(fmt::format(
-      volume ? "volume v scattering = 1; phase = {}; end" : "surface s bsdf = {}; end", text));
+  const char* open = volume ? "volume v scattering = 1; phase = " : "surface s bsdf = ";
+  const vm::Program program = link_text(fmt::format("{}{}; end", open, text));
   const auto source = api::material_source(program.descriptors.at(0), vm::Output::Material);
   vm::InputBatch<double> in(vm::Executable(program).width());
   for (int c = 0; c < kWavelengths; ++c)

@@ -104,7 +104,7 @@ double visible_mean(const Beckmann<double>& facets, Vec3d wo, const F& f, const 
       return normalize(Vec3d{-facets.ax * u * r, -facets.ay * v * r, 1});
     };
     const double end = s * x * reach > c ? c / (s * x) : reach;  // facets that face away
-    return integrate_between_edges<16>(
+    return integrate_between_edges<32>(
         [&](double r) { return 2 * r * std::exp(-r * r) * (c - s * x * r) * f(normal(r)); },
         [&](double r) { return edges(normal(r)); }, 0, end);
   };
