@@ -12,9 +12,13 @@ namespace mms {
 
 /// What went wrong, where, and one thing to try. Lower case, no full stop.
 struct Error {
+  /// In what was read; a name that nothing has; a file that is not there or cannot be read.
+  enum class Cause { Content, Name, File };
+
   std::string where;  ///< file, file:line:column, or option; may be empty
   std::string what;
   std::string hint;  ///< may be empty
+  Cause cause = Cause::Content;
 };
 
 /// Holds a `T` or an `Error`; test it before use.

@@ -21,7 +21,7 @@ namespace {
 /// OpenImageIO may say the same in several lines.
 Error unreadable(const std::string& path, const std::string& why) {
   return {path, "cannot read the picture: " + why.substr(0, why.find('\n')),
-          "is it whole, and a picture that OpenImageIO reads?"};
+          "is it whole, and a picture that OpenImageIO reads?", Error::Cause::File};
 }
 
 /// The channels of `layer`, three; nothing where there is no such layer.
@@ -94,7 +94,8 @@ Result<ReadPicture> read_picture(const std::string& path, const std::string& lay
 Result<EnvironmentImage> load_environment(const std::string& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
-    return Error{path, "no picture file `" + path + "`", "paths are relative to the scene file"};
+    return Error{path, "no picture file `" + path + "`", "paths are relative to the scene file",
+                 Error::Cause::File};
   Result<ReadPicture> picture = read_picture(path);
   if (!picture) return picture.error();
   for (std::array<float, 3>& c : picture->rgb)

@@ -47,7 +47,8 @@ bool append(const aiMesh& from, const Transform& transform, bool normals, bool u
 Result<Mesh> load_mesh(const std::string& path, const Transform& transform) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
-    return Error{path, "no mesh file `" + path + "`", "paths are relative to the scene file"};
+    return Error{path, "no mesh file `" + path + "`", "paths are relative to the scene file",
+                 Error::Cause::File};
   const std::string extension = extension_of(path);
   if (extension != ".obj" && extension != ".ply")
     return Error{path, "unsupported mesh type `" + extension + "`", "supported: .obj, .ply"};
@@ -57,7 +58,7 @@ Result<Mesh> load_mesh(const std::string& path, const Transform& transform) {
                                   aiProcess_SortByPType | aiProcess_PreTransformVertices);
   if (!scene || !scene->HasMeshes())
     return Error{path, std::string("cannot read the mesh: ") + importer.GetErrorString(),
-                 "is it whole, and of the kind that its name says?"};
+                 "is it whole, and of the kind that its name says?", Error::Cause::File};
   bool normals = true, uvs = true;  // kept only if all parts have them
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     normals &= scene->mMeshes[i]->HasNormals();

@@ -29,6 +29,17 @@ std::string hint_for(const std::string& word, const std::vector<std::string>& ca
   return near.empty() ? all : fmt::format("did you mean `{}`? {}", near, all);
 }
 
+Error no_such(const char* option, const char* thing, const std::string& name,
+              const std::vector<std::string>& names) {
+  const std::string near = lang::nearest(name, names);
+  const bool path =
+      name.find('/') != std::string::npos || std::filesystem::path(name).has_extension();
+  return {option, fmt::format("no {} `{}`", thing, name),
+          (near.empty() ? "" : fmt::format("did you mean `{}`? ", near)) +
+              "the path of a file, or one of " + join(names),
+          path ? Error::Cause::File : Error::Cause::Name};
+}
+
 namespace {
 
 using vm::DescriptorForm;
@@ -99,7 +110,7 @@ class Parser {
       return;
     }
     Result<EnvironmentImage> image = load_environment(in_folder(n["image"].text(), folder_));
-    if (!image) n["image"].fail(image.error().what, image.error().hint);
+    if (!image) n["image"].fail(image.error());
     e.image = std::move(*image);
     const double scale = n.number_or("scale", 1, 0, 1e9);
     e.radiance = {scale, scale, scale};
@@ -352,13 +363,8 @@ Result<Scene> load_scene(const vm::Program& program, const SceneSource& source) 
   } else {
     std::ifstream in(source.name, std::ios::binary);
     std::error_code ignored;
-    if (!in || std::filesystem::is_directory(source.name, ignored)) {
-      std::vector<std::string> names = builtin_scenes();
-      const std::string near = lang::nearest(source.name, names);
-      return Error{"--scene", fmt::format("no scene `{}`", source.name),
-                   (near.empty() ? "" : fmt::format("did you mean `{}`? ", near)) +
-                       "a path to a .json file, or one of " + join(names)};
-    }
+    if (!in || std::filesystem::is_directory(source.name, ignored))
+      return no_such("--scene", "scene", source.name, builtin_scenes());
     std::ostringstream s;
     s << in.rdbuf();
     text = std::move(s).str();

@@ -32,6 +32,10 @@ std::string join(const std::vector<std::string>& words);
 /// A hint for an unknown word: the nearest of what could stand there, and all of it.
 std::string hint_for(const std::string& word, const std::vector<std::string>& candidates);
 
+/// That an option which takes one of `names` or a path was given `name`, which is neither.
+Error no_such(const char* option, const char* thing, const std::string& name,
+              const std::vector<std::string>& names);
+
 /// A JSON value and where it stands.
 class Node {
  public:
@@ -40,6 +44,11 @@ class Node {
 
   [[noreturn]] void fail(std::string what, std::string hint = {}) const {
     throw Mistake{{path_.empty() ? file_ : file_ + ": " + path_, std::move(what), std::move(hint)}};
+  }
+
+  /// As an error of a file that is named here.
+  [[noreturn]] void fail(const Error& e) const {
+    throw Mistake{{path_.empty() ? file_ : file_ + ": " + path_, e.what, e.hint, e.cause}};
   }
 
   /// Checks that this is an object with no other keys than `keys`.

@@ -78,7 +78,7 @@ Mesh written_mesh(const Node& n, const Transform& t) {
 Shape mesh(const Node& n, const Transform& t, const std::string& folder) {
   if (n.is_object()) return written_mesh(n, t);
   Result<Mesh> mesh = load_mesh(in_folder(n.text(), folder), t);
-  if (!mesh) n.fail(mesh.error().what, mesh.error().hint);
+  if (!mesh) n.fail(mesh.error());
   return std::move(*mesh);
 }
 

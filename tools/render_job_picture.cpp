@@ -49,13 +49,17 @@ std::string choose_surface(const RenderRequest& request, const std::string& file
   return names[0];
 }
 
-/// What a scene that did not load means: no such file, no such built-in scene, or a wrong one.
-Exit scene_exit(const std::string& name) {
-  for (const std::string& known : renderer::builtin_scenes())
-    if (name == known) return Exit::Script;
-  std::error_code ignored;
-  if (fs::exists(name, ignored)) return Exit::Script;
-  return name.ends_with(".json") || name.find('/') != std::string::npos ? Exit::File : Exit::Usage;
+/// Of a scene that did not load.
+Exit scene_exit(Error::Cause cause) {
+  switch (cause) {
+    case Error::Cause::File:
+      return Exit::File;
+    case Error::Cause::Name:
+      return Exit::Usage;
+    case Error::Cause::Content:
+      break;
+  }
+  return Exit::Script;
 }
 
 /// A number for what a file holds; 0 where it cannot be read.
@@ -164,7 +168,7 @@ std::optional<RenderJob> prepare(const RenderRequest& request, const std::string
   const renderer::SceneSource source{request.scene, choose_surface(request, file, program->program),
                                      request.volume, request.turn};
   const auto scene = renderer::load_scene(program->program, source);
-  if (!scene) return give_up(scene_exit(request.scene), scene.error());
+  if (!scene) return give_up(scene_exit(scene.error().cause), scene.error());
   return RenderJob{program, *scene, script_hash(program->program)};
 }
 

@@ -259,14 +259,14 @@ TEST_CASE("pictures and meshes that are missing or broken") {
   folder.write("scene.json", R"({"environment": {"image": "sky.exr"},
                                  "objects": [{"sphere": {}, "test": true}]})");
   const std::string render = "render good.mms -o out.png --scene scene.json" + std::string(kSmall);
-  check_message(folder.mms(render), 1, "scene.json: environment.image",
+  check_message(folder.mms(render), 3, "scene.json: environment.image",
                 "no picture file `sky.exr`");
   CHECK(contains(folder.mms(render).err, "relative to the scene file"));
   folder.write("sky.exr", "v/1");
-  check_message(folder.mms(render), 1, "scene.json: environment.image", "cannot read the picture");
+  check_message(folder.mms(render), 3, "scene.json: environment.image", "cannot read the picture");
   folder.write("scene.json", R"({"objects": [{"mesh": "m.obj", "test": true}]})");
   folder.write("m.obj", "v");
-  check_message(folder.mms(render), 1, "scene.json: objects[0].mesh", "cannot read the mesh");
+  check_message(folder.mms(render), 3, "scene.json: objects[0].mesh", "cannot read the mesh");
   check_message(folder.mms("render good.mms -o out.tiff"), 3, "out.tiff", ".film");
   CHECK_FALSE(folder.has("out.png"));
 }

@@ -98,12 +98,14 @@ TEST_CASE("every mistake names its place and what to try") {
 
   e = error_of(with_ball(R"(, "environment": {"image": "nowhere.exr"})"));
   CHECK(e.where == "s.json: environment.image");
+  CHECK(e.cause == Error::Cause::File);
 
   e = error_of(with_ball(R"(, "environment": {"constant": 1, "image": "x.exr"})"));
   CHECK(e.where == "s.json: environment");
 
   e = error_of(R"({"objects": [{"mesh": "nowhere.obj", "surface": "wood"}]})");
   CHECK(e.where == "s.json: objects[0].mesh");
+  CHECK(e.cause == Error::Cause::File);
 
   e = error_of(R"({"objects": [})");
   CHECK(holds(e.what, "line 1, column"));
