@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/warp.h"
+#include "renderer/latlong.h"
 
 namespace mms::renderer {
 namespace {
@@ -59,18 +60,6 @@ SurfacePoint sample_sphere(const Sphere& s, Vec3d from, double u, double v) {
   const Roots r = intersect(s, from, d, 0, 1e300);
   // At the rim rounding may miss the sphere: its point nearest to the ray.
   return surface_at(s, from + d * (r.count > 0 ? r.t[0] : dot(s.centre - from, d)));
-}
-
-/// Column and row in [0, 1] of a direction, and back: +y up, the middle looks along -z.
-std::array<double, 2> to_map(Vec3d d, double rotation) {
-  double x = 0.5 + (std::atan2(d.x, -d.z) - rotation) / kTwoPi;
-  x -= std::floor(x);
-  return {x, std::acos(std::clamp(d.y, -1.0, 1.0)) / kPi<double>};
-}
-
-Vec3d from_map(double x, double y, double rotation) {
-  const double phi = (x - 0.5) * kTwoPi + rotation, theta = y * kPi<double>;
-  return {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
 }
 
 /// Mean of the cosine over a light that fills a cone of sine `blur`, `cosine` in its middle, where
@@ -291,7 +280,7 @@ LightSample Lights::sample_one(int choice, Vec3d from, double u, double v) const
   s.object = c.object;
   if (c.object == kEnvironment) {
     const TexelDensity::Drawn d = texels_.sample(u, v);
-    s.direction = from_map(d.x, d.y, scene_->environment.rotation);
+    s.direction = latlong_direction(d.x, d.y, scene_->environment.rotation);
     s.pdf = density_environment(s.direction);
     return s;
   }
@@ -322,7 +311,7 @@ double Lights::pdf(const Receiver& from, int object, const SurfacePoint& at) con
 
 /// Per steradian, the environment being chosen.
 double Lights::density_environment(Vec3d direction) const {
-  const auto [x, y] = to_map(direction, scene_->environment.rotation);
+  const auto [x, y] = latlong_of(direction, scene_->environment.rotation);
   const double sine = std::sqrt(std::max(0.0, 1 - direction.y * direction.y));
   return sine > 0 ? texels_.pdf(x, y) / (kTwoPi * kPi<double> * sine) : 0;
 }
@@ -350,7 +339,7 @@ Rgb Lights::texel(double x, double y) const {
 Spectrumf Lights::environment(Vec3d direction, const Cluster& cluster) const {
   const Environment& e = scene_->environment;
   if (!e.image) return cluster.light(e.radiance);
-  const auto [x, y] = to_map(direction, e.rotation);
+  const auto [x, y] = latlong_of(direction, e.rotation);
   Rgb c = texel(x, y);
   for (int k = 0; k < 3; ++k) c[k] *= e.radiance[k];
   return cluster.light(c);

@@ -44,8 +44,6 @@ namespace {
 
 using vm::DescriptorForm;
 
-constexpr double kDegree = kPi<double> / 180;
-
 /// Turn about x, then y, then z.
 Frame<double> euler(Vec3d degrees) {
   const Vec3d a = degrees * kDegree;
@@ -74,7 +72,8 @@ class Parser {
   SceneData scene(const Node& root) {
     root.keys({"camera", "environment", "materials", "objects"});
     if (root.has("camera")) camera(root["camera"]);
-    if (root.has("environment")) environment(root["environment"]);
+    if (root.has("environment"))
+      data_.environment = parse_environment(root["environment"], folder_);
     if (root.has("materials"))
       for (const auto& [name, node] : root["materials"].members()) fixed_surface(name, node);
     for (const Node& n : root["objects"].elements()) object(n);
@@ -96,25 +95,6 @@ class Parser {
     if (!(length(cross(view, c.up)) > 1e-9 * length(view) * length(c.up)))
       n.fail("`up` is parallel to the view direction", "state another \"up\"");
     c.focus = n.number_or("focus", length(view), 1e-6, 1e9);
-  }
-
-  void environment(const Node& n) {
-    n.keys({"constant", "image", "scale", "rotate"});
-    Environment& e = data_.environment;
-    if (n.has("constant") == n.has("image"))
-      n.fail("an environment has either `constant` or `image`");
-    if (n.has("constant")) {
-      e.radiance = n["constant"].rgb(1e9);
-      if (n.has("scale") || n.has("rotate"))
-        n.fail("`scale` and `rotate` belong to an environment with `image`");
-      return;
-    }
-    Result<EnvironmentImage> image = load_environment(in_folder(n["image"].text(), folder_));
-    if (!image) n["image"].fail(image.error());
-    e.image = std::move(*image);
-    const double scale = n.number_or("scale", 1, 0, 1e9);
-    e.radiance = {scale, scale, scale};
-    e.rotation = n.number_or("rotate", 0, -1e6, 1e6) * kDegree;
   }
 
   void fixed_surface(const std::string& name, const Node& n) {
@@ -329,7 +309,9 @@ std::uint64_t hash_of(const SceneData& data, std::string_view text) {
       h = add(h, mesh->normals);
       h = add(h, mesh->uvs);
     }
-  if (data.environment.image) h = add(h, data.environment.image->rgb);
+  const auto& image = data.environment.image;
+  const bool read = image && !image->path.empty();  // else all of it follows from the text
+  if (read) h = add(h, image->rgb);
   return h;
 }
 

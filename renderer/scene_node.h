@@ -15,11 +15,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/warp.h"
 #include "renderer/scene.h"
 
 namespace mms::renderer {
 
 using Json = nlohmann::json;
+
+inline constexpr double kDegree = kPi<double> / 180;
 
 /// A mistake in the scene, on its way to `parse_scene`.
 struct Mistake {
@@ -144,6 +147,9 @@ std::vector<std::string> shape_keys();
 
 /// The shape of an object, in the world; meshes are looked up in `folder`.
 Shape parse_shape(const Node& object, const Transform& transform, const std::string& folder);
+
+/// What `environment` of a scene says; pictures are looked up in `folder`.
+Environment parse_environment(const Node& environment, const std::string& folder);
 
 /// `path` as a file of `folder`.
 std::string in_folder(const std::string& path, const std::string& folder);

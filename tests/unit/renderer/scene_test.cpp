@@ -103,6 +103,36 @@ TEST_CASE("every mistake names its place and what to try") {
   e = error_of(with_ball(R"(, "environment": {"constant": 1, "image": "x.exr"})"));
   CHECK(e.where == "s.json: environment");
 
+  e = error_of(with_ball(R"(, "environment": {"constant": 1, "scale": 2})"));
+  CHECK(holds(e.what, "with `image` or `sky`"));
+
+  e = error_of(with_ball(R"(, "environment": {"sky": "clear", "constant": 1})"));
+  CHECK(e.what == "an environment has one of `constant`, `image` and `sky`");
+
+  e = error_of(with_ball(R"(, "environment": {"sky": "claer"})"));
+  CHECK(e.where == "s.json: environment.sky");
+  CHECK(e.hint == "did you mean `clear`? known: `overcast`, `clear`");
+
+  e = error_of(with_ball(R"(, "environment": {"sky": 12})"));
+  CHECK(holds(e.what, "expected a string"));
+
+  e = error_of(with_ball(R"(, "environment": {"sky": "clear", "snu": [0, 1, 0]})"));
+  CHECK(e.where == "s.json: environment.snu");
+  CHECK(holds(e.hint, "did you mean `sun`?"));
+
+  for (const char* below : {"[1, 0, 0]", "[0, -1, 0]"}) {
+    e = error_of(
+        with_ball(fmt::format(R"(, "environment": {{"sky": "clear", "sun": {}}})", below)));
+    CHECK(e.where == "s.json: environment.sun");
+    CHECK(holds(e.what, "not above the horizon"));
+  }
+
+  e = error_of(with_ball(R"(, "environment": {"sky": "overcast", "sun": [0, 1, 0]})"));
+  CHECK(holds(e.what, "does not depend on the sun"));
+
+  e = error_of(with_ball(R"(, "environment": {"constant": 1, "sun": [0, 1, 0]})"));
+  CHECK(holds(e.what, "`sun` belongs to an environment with `sky`"));
+
   e = error_of(R"({"objects": [{"mesh": "nowhere.obj", "surface": "wood"}]})");
   CHECK(e.where == "s.json: objects[0].mesh");
   CHECK(e.cause == Error::Cause::File);
