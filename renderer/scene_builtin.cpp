@@ -5,22 +5,23 @@
 namespace mms::renderer {
 namespace {
 
-/// What stands around the test object of several scenes: a matte checkered ground before a plain
-/// backdrop, three lights and a chart of greys. Most things are placed along the camera's own axes:
-/// turned by 29.87 degrees about y.
-constexpr std::string_view kStudioMaterials = R"(
+/// Where the test object of several scenes stands, besides the chart of greys before it.
+struct Place {
+  std::string_view light_and_materials;  ///< the list of materials is open at its end
+  std::string_view objects;  ///< so is that of the objects, which the chart goes on with
+};
+
+/// A matte checkered ground before a plain backdrop, and three lights. Most things are placed along
+/// the camera's own axes: turned by 29.87 degrees about y.
+constexpr Place kStudio{R"(
   "environment": {"constant": [0.15, 0.16, 0.18]},
   "materials": {
     "ground": {"matte": 0.26, "checker": 0.40, "size": 0.5},
     "backdrop": {"matte": 0.3},
     "key": {"matte": 0, "emission": 7.5},
     "top": {"matte": 0, "emission": 1.1},
-    "rim": {"matte": 0, "emission": [4.6, 5.0, 5.6]},
-    "grey90": {"matte": 0.90}, "grey59": {"matte": 0.591}, "grey36": {"matte": 0.362},
-    "grey20": {"matte": 0.198}, "grey09": {"matte": 0.090}, "grey03": {"matte": 0.031}
-  },
-)";
-constexpr std::string_view kStudioObjects = R"(,
+    "rim": {"matte": 0, "emission": [4.6, 5.0, 5.6]},)",
+                        R"(,
     {"quad": {"corner": [-14, -1, 12], "u": [28, 0, 0], "v": [0, 0, -28]}, "surface": "ground"},
     {"quad": {"corner": [-14, -1, -5], "u": [28, 0, 0], "v": [0, 12, 0]}, "rotate": [0, 29.87, 0], "surface": "backdrop"},
     // Key light: large and soft, to the left, above and before the ball.
@@ -31,7 +32,28 @@ constexpr std::string_view kStudioObjects = R"(,
      "rotate": [0, 29.87, 0], "surface": "top"},
     // Rim light: a strip behind and to the right, which draws the edge of dark and glossy balls.
     {"name": "rim", "quad": {"corner": [3.155, 2.646, -2.239], "u": [-0.566, 0, -0.566], "v": [0.555, -2.892, -0.555]},
-     "rotate": [0, 29.87, 0], "surface": "rim"},
+     "rotate": [0, 29.87, 0], "surface": "rim"},)"};
+
+/// Under the sky. The sun lights a white ground to a luminance of 0.7, the sky to 0.3. Its colour
+/// is CIE daylight of 5200 K, so that both together are about white. Seen from the ball its radius
+/// is one degree; the real one's is 0.27, but that would be much noisier where light is mirrored.
+/// The ground ends 4 km from the camera, 0.02 degrees below the horizon.
+constexpr Place kOutdoors{R"(
+  "environment": {"sky": "clear", "sun": [-1, 2, 2], "scale": 0.3},
+  "materials": {
+    "ground": {"matte": 0.26, "checker": 0.40, "size": 0.5},
+    "sun": {"matte": 0, "emission": [3950, 3345, 2610]},)",
+                          R"(,
+    {"quad": {"corner": [-4000, -1, 4000], "u": [8000, 0, 0], "v": [0, 0, -8000]}, "surface": "ground"},
+    {"name": "sun", "disc": {"center": [-1000, 2000, 2000], "normal": [1, -2, -2], "radius": 52.365}, "surface": "sun"},)"};
+
+/// Reflectances of a standard chart.
+constexpr std::string_view kChartMaterials = R"(
+    "grey90": {"matte": 0.90}, "grey59": {"matte": 0.591}, "grey36": {"matte": 0.362},
+    "grey20": {"matte": 0.198}, "grey09": {"matte": 0.090}, "grey03": {"matte": 0.031}
+  },
+)";
+constexpr std::string_view kChartObjects = R"(
     // Reference greys, light to dark: reflectances of a standard chart.
     {"quad": {"corner": [-1.02, -0.999, 1.62], "u": [0.32, 0, 0], "v": [0, 0, -0.26]}, "rotate": [0, 29.87, 0], "surface": "grey90"},
     {"quad": {"corner": [-0.68, -0.999, 1.62], "u": [0.32, 0, 0], "v": [0, 0, -0.26]}, "rotate": [0, 29.87, 0], "surface": "grey59"},
@@ -44,17 +66,17 @@ constexpr std::string_view kStudioObjects = R"(,
 /// Without the outer braces; the list of objects is open at its end.
 struct BuiltinScene {
   std::string_view name;
-  bool studio;
+  const Place* place;  ///< or null: the scene says all itself
   std::string_view text;
 };
 
 constexpr BuiltinScene kScenes[] = {
-    {"sphere", true, R"(
+    {"sphere", &kStudio, R"(
   // The test sphere: radius 1, resting on the ground.
   "camera": {"position": [3.1, 1.75, 5.4], "target": [0, -0.12, 0], "fov": 30},
   "objects": [
     {"name": "ball", "sphere": {"radius": 1}, "test": true})"},
-    {"shaderball", true, R"(
+    {"shaderball", &kStudio, R"(
   // A ball on a foot, turned on a lathe: a groove with sharp edges, a thin neck, a rounded rim.
   "camera": {"position": [3.1, 1.75, 5.4], "target": [0, -0.12, 0], "fov": 28},
   "objects": [
@@ -72,12 +94,17 @@ constexpr BuiltinScene kScenes[] = {
       [0.2858, 0.9511], [0.2302, 0.9686], [0.1736, 0.9823], [0.1162, 0.9921], [0.0582, 0.998],
       [0, 1]
     ]}})"},
-    {"furnace", false, R"(
+    {"outdoors", &kOutdoors, R"(
+  // The test sphere under a clear sky and the sun, which stands before it to the left.
+  "camera": {"position": [3.1, 0.8, 5.4], "target": [0, -0.1, 0], "fov": 30},
+  "objects": [
+    {"name": "ball", "sphere": {"radius": 1}, "test": true})"},
+    {"furnace", nullptr, R"(
   // A ball in uniform light: one that absorbs nothing vanishes.
   "camera": {"position": [0, 0, 6], "target": [0, 0, 0], "fov": 26},
   "environment": {"constant": 1},
   "objects": [{"name": "ball", "sphere": {"radius": 1}, "test": true})"},
-    {"cornell", false, R"(
+    {"cornell", nullptr, R"(
   // A closed box of coloured walls with one lamp: light bounces many times.
   "camera": {"position": [0, 0, 7.6], "target": [0, 0, 0], "fov": 36},
   "materials": {
@@ -92,7 +119,7 @@ constexpr BuiltinScene kScenes[] = {
     {"quad": {"corner": [-2, -2, 2], "u": [0, 0, -4], "v": [0, 4, 0]}, "surface": "red"},
     {"quad": {"corner": [2, -2, -2], "u": [0, 0, 4], "v": [0, 4, 0]}, "surface": "green"},
     {"quad": {"corner": [-0.5, 1.999, -0.5], "u": [1, 0, 0], "v": [0, 0, 1]}, "surface": "lamp"})"},
-    {"backlit", false, R"(
+    {"backlit", nullptr, R"(
   // The ball between the camera and a large lamp: what lets light through glows.
   "camera": {"position": [0, 0.6, 6], "target": [0, 0, 0], "fov": 28},
   "environment": {"constant": 0.04},
@@ -101,7 +128,7 @@ constexpr BuiltinScene kScenes[] = {
     {"name": "ball", "sphere": {"radius": 1}, "test": true},
     {"quad": {"corner": [-9, -1, 9], "u": [18, 0, 0], "v": [0, 0, -18]}, "surface": "ground"},
     {"name": "lamp", "quad": {"corner": [-3, -0.6, -3.5], "u": [6, 0, 0], "v": [0, 4, 0]}, "surface": "lamp"})"},
-    {"prism", false, R"(
+    {"prism", nullptr, R"(
   // A prism, seen before six bright slits that stand aside: what its glass bends shows each of them
   // where its index puts it, and as a spectrum.
   "camera": {"position": [0, 0.3, 5], "target": [0, 0.25, 0], "fov": 34},
@@ -119,7 +146,7 @@ constexpr BuiltinScene kScenes[] = {
     {"quad": {"corner": [-0.07, -1, 0], "u": [0.14, 0, 0], "v": [0, 3.2, 0]}, "translate": [-7.092, 0, -5.541], "rotate": [0, 52, 0], "surface": "slit"},
     {"quad": {"corner": [-0.07, -1, 0], "u": [0.14, 0, 0], "v": [0, 3.2, 0]}, "translate": [-8.089, 0, -3.945], "rotate": [0, 64, 0], "surface": "slit"},
     {"quad": {"corner": [-0.07, -1, 0], "u": [0.14, 0, 0], "v": [0, 3.2, 0]}, "translate": [-8.733, 0, -2.177], "rotate": [0, 76, 0], "surface": "slit"})"},
-    {"grid", false, R"(
+    {"grid", nullptr, R"(
   // A sheet of materials: each ball wears another surface of the script, from the chosen one on.
   "camera": {"position": [0, 0, 9], "target": [0, 0, 0], "fov": 29},
   "environment": {"constant": [0.15, 0.16, 0.18]},
@@ -155,9 +182,9 @@ std::optional<std::string> builtin_scene_text(std::string_view name) {
   for (const BuiltinScene& s : kScenes) {
     if (s.name != name) continue;
     std::string text = "{";
-    if (s.studio) text += kStudioMaterials;
+    if (s.place) (text += s.place->light_and_materials) += kChartMaterials;
     text += s.text;
-    if (s.studio) text += kStudioObjects;
+    if (s.place) (text += s.place->objects) += kChartObjects;
     return text + "]}";
   }
   return std::nullopt;
