@@ -29,6 +29,9 @@ struct SceneSource {
   std::string surface, volume;
   /// Turns the object under test about the vertical axis through its own origin; radians.
   double turn = 0;
+  /// In place of the scene's: the name of an environment (renderer/environments.h), or the path of
+  /// a latitude-longitude picture. Empty: the scene's own.
+  std::string environment = {};
 };
 
 /// Names of the built-in scenes, the default first.

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The environments that a scene file can write: docs/scene.md.
+// The environments that a scene file can write, and those that have a name: docs/scene.md.
+#include <filesystem>
+
+#include "renderer/environments.h"
 #include "renderer/scene_node.h"
 #include "renderer/sky.h"
 
@@ -45,6 +48,23 @@ Environment parse_environment(const Node& n, const std::string& folder) {
   return {{scale, scale, scale},
           n.has("sky") ? sky(n) : picture(n["image"], in_folder(n["image"].text(), folder)),
           n.number_or("rotate", 0, -1e6, 1e6) * kDegree};
+}
+
+Environment environment_named(const std::string& name) {
+  constexpr const char* kOption = "--environment";
+  std::vector<std::string> known;
+  for (const NamedEnvironment& e : kEnvironments) {
+    known.emplace_back(e.name);
+    if (e.name != name) continue;
+    const Json json = Json::parse(e.text);
+    return parse_environment(Node(json, kOption, ""), "");
+  }
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(name, ignored))
+    throw Mistake{no_such(kOption, "environment", name, known)};
+  Result<EnvironmentImage> image = load_environment(name);
+  if (!image) throw Mistake{image.error()};
+  return {{1, 1, 1}, std::move(*image)};
 }
 
 }  // namespace mms::renderer

@@ -72,7 +72,9 @@ class Parser {
   SceneData scene(const Node& root) {
     root.keys({"camera", "environment", "materials", "objects"});
     if (root.has("camera")) camera(root["camera"]);
-    if (root.has("environment"))
+    if (!source_.environment.empty())
+      data_.environment = environment_named(source_.environment);
+    else if (root.has("environment"))
       data_.environment = parse_environment(root["environment"], folder_);
     if (root.has("materials"))
       for (const auto& [name, node] : root["materials"].members()) fixed_surface(name, node);
@@ -292,8 +294,9 @@ class Parser {
   SceneData data_;
 };
 
-/// Of the text, of what was read from the files that it names, and of what the test object wears.
-std::uint64_t hash_of(const SceneData& data, std::string_view text) {
+/// Of the text, of what was read from the files that it names, of the environment that was asked
+/// for in place of the text's, and of what the test object wears.
+std::uint64_t hash_of(const SceneData& data, const SceneSource& source, std::string_view text) {
   const auto add = [](std::uint64_t h, const auto& values) {
     const auto bytes = std::as_bytes(std::span(values));
     return hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, h);
@@ -312,7 +315,9 @@ std::uint64_t hash_of(const SceneData& data, std::string_view text) {
   const auto& image = data.environment.image;
   const bool read = image && !image->path.empty();  // else all of it follows from the text
   if (read) h = add(h, image->rgb);
-  return h;
+  if (!source.environment.empty())
+    h = read ? add(h, std::array{image->width, image->height}) : hash_bytes(source.environment, h);
+  return hash_combine(h, std::bit_cast<std::uint64_t>(source.turn));
 }
 
 }  // namespace
@@ -354,7 +359,7 @@ Result<Scene> load_scene(const vm::Program& program, const SceneSource& source) 
   }
   Result<SceneData> data = parse_scene(program, source, text, origin, folder);
   if (!data) return data.error();
-  data->hash = hash_combine(hash_of(*data, text), std::bit_cast<std::uint64_t>(source.turn));
+  data->hash = hash_of(*data, source, text);
   return Scene(std::make_shared<const SceneData>(std::move(*data)));
 }
 

@@ -151,6 +151,9 @@ Shape parse_shape(const Node& object, const Transform& transform, const std::str
 /// What `environment` of a scene says; pictures are looked up in `folder`.
 Environment parse_environment(const Node& environment, const std::string& folder);
 
+/// As `SceneSource::environment` asks.
+Environment environment_named(const std::string& name);
+
 /// `path` as a file of `folder`.
 std::string in_folder(const std::string& path, const std::string& folder);
 

@@ -7,7 +7,9 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "renderer/environments.h"
 #include "tools/commands.h"
 
 namespace mms::tools {
@@ -105,6 +107,9 @@ Exit render(RenderRequest request) {
 }
 
 void add_render_options(Verb& verb, RenderRequest& r) {
+  std::vector<std::string_view> environments;
+  for (const renderer::NamedEnvironment& e : renderer::kEnvironments)
+    environments.push_back(e.name);
   verb.add(
       {"-o,--output", &r.output, "PATH",
        "Picture (.png, .exr), exact sums (.film), a folder for each NAME.png, or a sheet of all"});
@@ -119,6 +124,10 @@ void add_render_options(Verb& verb, RenderRequest& r) {
   verb.add({"--size", &r.size, "WxH", "Width and height in pixels [512x512]"});
   verb.add(
       {"--scene", &r.scene, "NAME|FILE", "A built-in scene, or a scene file (.json) [sphere]"});
+  verb.add(
+      {"--environment", &r.environment, "NAME|FILE",
+       fmt::format("In place of the scene's: {}, or a picture of it all (.exr, .hdr, .png ...)",
+                   fmt::join(environments, ", "))});
   verb.add({"--surface", &r.surface, "NAME", "Surface that the test object wears"});
   verb.add({"--volume", &r.volume, "NAME", "Volume that fills the test object"});
   verb.add({"--max-depth", &r.max_depth, "N", "Scattering events of a path [64]"});

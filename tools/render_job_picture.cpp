@@ -166,7 +166,7 @@ std::optional<RenderJob> prepare(const RenderRequest& request, const std::string
                                   "add one: surface \"plain\" bsdf = matte(0.5); end"});
   auto program = std::make_shared<const Compiled>(std::move(*linked));
   const renderer::SceneSource source{request.scene, choose_surface(request, file, program->program),
-                                     request.volume, request.turn};
+                                     request.volume, request.turn, request.environment};
   const auto scene = renderer::load_scene(program->program, source);
   if (!scene) return give_up(scene_exit(scene.error().cause), scene.error());
   return RenderJob{program, *scene, script_hash(program->program)};

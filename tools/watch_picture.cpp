@@ -202,6 +202,7 @@ Exit watch(RenderRequest request, const std::string& file, const std::string& pa
     WatchedFiles files;
     files.add(file);
     add_scene(request.scene, files);
+    files.add(request.environment);
     request.looked_for = [&](const std::string& name) { files.add(name); };
     Exit exit = Exit::Ok;
     const auto job = prepare(request, file, exit);

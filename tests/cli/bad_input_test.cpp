@@ -252,6 +252,15 @@ TEST_CASE("a scene that is missing, or with an unknown key") {
   CHECK(folder.file_count() == 2);
 }
 
+TEST_CASE("an environment that is missing") {
+  check_render("-o out.png --environment claer" + std::string(kSmall), 2, "--environment",
+               "did you mean `clear`?");
+  check_render("-o out.png --environment dusk" + std::string(kSmall), 2, "--environment",
+               "`white`, `black`, `overcast`, `clear`");
+  check_render("-o out.png --environment sky.exr" + std::string(kSmall), 3, "--environment",
+               "no environment `sky.exr`");
+}
+
 TEST_CASE("pictures and meshes that are missing or broken") {
   const Folder folder;
   check_message(folder.mms("compare a.png b.png"), 3, "a.png", "there is no such picture");
@@ -264,6 +273,11 @@ TEST_CASE("pictures and meshes that are missing or broken") {
   CHECK(contains(folder.mms(render).err, "relative to the scene file"));
   folder.write("sky.exr", "v/1");
   check_message(folder.mms(render), 3, "scene.json: environment.image", "cannot read the picture");
+  check_message(folder.mms("render good.mms -o out.png --environment sky.exr"), 3, "sky.exr",
+                "cannot read the picture");
+  // One that is not asked for is not read.
+  CHECK(folder.mms(render + "--quiet --environment overcast").exit == 0);
+  CHECK(std::filesystem::remove(folder.path("out.png")));
   folder.write("scene.json", R"({"objects": [{"mesh": "m.obj", "test": true}]})");
   folder.write("m.obj", "v");
   check_message(folder.mms(render), 3, "scene.json: objects[0].mesh", "cannot read the mesh");

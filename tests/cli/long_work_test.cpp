@@ -94,6 +94,7 @@ TEST_CASE("what does not add up is refused, and says why") {
   good(folder, "render s.mms" + options + "--samples 4:8 -o filter.film --filter box");
   good(folder, "render t.mms" + options + "--samples 4:8 -o script.film");
   good(folder, "render s.mms" + options + "--samples 4:8 -o scene.film --scene furnace");
+  good(folder, "render s.mms" + options + "--samples 4:8 -o sky.film --environment clear");
   good(folder, "render s.mms --quiet --size 16x17 --samples 4:8 -o size.film");
   const std::string film = folder.read("a.film");
   folder.write("cut.film", film.substr(0, film.size() - 1));
@@ -108,6 +109,7 @@ TEST_CASE("what does not add up is refused, and says why") {
                {"filter", "filter"},
                {"script", "other scripts"},
                {"scene", "other scenes"},
+               {"sky", "other scenes"},
                {"size", "size 16x16 and 16x17"},
                {"cut", "is damaged"},
                {"changed", "is damaged"},

@@ -107,6 +107,34 @@ kill -INT $child; wait $child; echo "ended $?"
   CHECK(run.out == "ended 130\n");
 }
 
+TEST_CASE("a watched picture follows the environment that it was given") {
+  const Folder folder;
+  folder.write("s.mms", "surface s bsdf = matte(0.5); end\n");
+  const Outcome run = folder.bash(R"BASH(
+fail() { echo "$*"; cat log; kill -9 $child; exit 1; }
+# `until_line COUNT TEXT`: waits for the COUNT-th line with TEXT.
+until_line() {
+  for i in $(seq 1500); do
+    [ "$(grep -c "$2" log)" -ge "$1" ] && return; sleep 0.02
+  done
+  fail "no $1. line with $2"
+}
+touch log
+mms-render render s.mms --size 24x24 --samples 3 --scene furnace --environment sky.ppm --watch -o p.png >log 2>&1 & child=$!
+until_line 1 'sky.ppm'
+printf 'P6 1 1 255\n@@@' >new; mv new sky.ppm
+until_line 1 'estimated error'
+cp p.png before.png
+printf 'P6 1 1 255\nccc' >new; mv new sky.ppm
+until_line 2 'estimated error'
+cmp -s before.png p.png && fail "another picture changed nothing"
+kill -INT $child; wait $child; echo "ended $?"
+)BASH");
+  INFO(run.out, run.err);
+  CHECK(run.exit == 0);
+  CHECK(run.out == "ended 130\n");
+}
+
 TEST_CASE("only one script can be watched") {
   const Folder folder;
   folder.write("s.mms", "surface \"s\" bsdf = matte(0.5); end\n");

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skies against the formulas of the standard, written here once more.
+// Skies against the formulas of the standard, written here once more, and environments by name.
 #include "renderer/sky.h"
+
+#include <filesystem>
+#include <fstream>
+#include <set>
 
 #include "materials/colour.h"
 #include "materials/spectra.h"
+#include "renderer/environments.h"
 #include "scenes.h"
+#include "tests/sanitized.h"
 
 using namespace mms;
 using namespace mms::renderer;
@@ -47,6 +53,12 @@ const Sky& sky_named(std::string_view name) {
     if (s.name == name) return s;
   FAIL("no such sky");
   return skies()[0];
+}
+
+Result<SceneData> patch_under(const vm::Program& p, const std::string& environment) {
+  SceneSource source;
+  source.environment = environment;
+  return parse_scene(p, source, patch(""), "test", "");
 }
 
 }  // namespace
@@ -124,4 +136,78 @@ TEST_CASE("a sky's light has luminance 1 and the colour that is stated, as a spe
   CHECK(clear.x == doctest::Approx(x / y).epsilon(1e-4));
   CHECK(clear.z == doctest::Approx((1 - x - y) / y).epsilon(1e-4));
   CHECK(sky_named("overcast").colour == Rgb{1, 1, 1});
+}
+
+TEST_CASE("a ground of albedo 0.6 has luminance 0.6 under every bright environment") {
+  HandProgram h;
+  h.matte("ground", 0.6);
+  for (const NamedEnvironment& e : kEnvironments) {
+    CAPTURE(e.name);
+    const Result<SceneData> s = patch_under(h.program, std::string(e.name));
+    REQUIRE(bool(s));
+    const Rendered r = run(h.program, Scene(std::make_shared<const SceneData>(*s)),
+                           options(32, kSanitized ? 32 : 256));
+    if (e.name == "black")
+      CHECK(mean_luminance(r.film).value == 0);
+    else
+      check_mean(r.film, 0.6);
+  }
+}
+
+TEST_CASE("a white ball vanishes in a white environment, whatever the scene's own") {
+  HandProgram h;
+  h.matte("ball", 1);
+  const auto film = [&](const std::string& environment) {
+    SceneSource source;
+    source.name = "furnace";
+    source.environment = environment;
+    const Result<Scene> s = load_scene(h.program, source);
+    REQUIRE(bool(s));
+    RenderOptions o = options(32, kSanitized ? 8 : 64);
+    return run(h.program, *s, o).film;
+  };
+  check_mean(film("white"), 1);
+  CHECK(mean_luminance(film("black")).value == 0);
+}
+
+TEST_CASE("an environment that is asked for is part of the scene's hash") {
+  HandProgram h;
+  h.matte("ball", 0.5);
+  const auto hash = [&](const std::string& environment) {
+    SceneSource source;
+    source.environment = environment;
+    const Result<Scene> s = load_scene(h.program, source);
+    REQUIRE_MESSAGE(bool(s), environment);
+    return s->data().hash;
+  };
+  const auto folder = std::filesystem::temp_directory_path() / "mms_sky_test";
+  std::filesystem::create_directories(folder);
+  const auto picture = [&](const char* name, const char* header) {
+    std::ofstream(folder / name) << header << "abcdefghijkl";
+    return (folder / name).string();
+  };
+  const std::string one = picture("one.ppm", "P6 4 1 255\n");
+  const std::string same = picture("same.ppm", "P6 4 1 255\n");
+  const std::string other = picture("other.ppm", "P6 2 2 255\n");
+  std::set<std::uint64_t> all{hash(""), hash(one), hash(other)};
+  for (const NamedEnvironment& e : kEnvironments) all.insert(hash(std::string(e.name)));
+  CHECK(all.size() == 3 + std::size(kEnvironments));
+  CHECK(hash(one) == hash(same));
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("an environment that is not there: a name that nothing has, or a file") {
+  HandProgram h;
+  h.matte("ground", 0.5);
+  Result<SceneData> s = patch_under(h.program, "claer");
+  REQUIRE_FALSE(bool(s));
+  CHECK(s.error().where == "--environment");
+  CHECK(s.error().what == "no environment `claer`");
+  CHECK(s.error().hint.find("did you mean `clear`? ") == 0);
+  for (const NamedEnvironment& e : kEnvironments)
+    CHECK(s.error().hint.find("`" + std::string(e.name) + "`") != std::string::npos);
+  CHECK(s.error().cause == Error::Cause::Name);
+  s = patch_under(h.program, "claer.exr");
+  REQUIRE_FALSE(bool(s));
+  CHECK(s.error().cause == Error::Cause::File);
 }
