@@ -6,6 +6,8 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <random>
 #include <string_view>
 
@@ -37,7 +39,7 @@ struct Surface {
   }
 };
 
-constexpr int kHits = 1024, kRounds = 31;
+constexpr int kHits = 1024, kRounds = 61;
 
 /// One hit: what a path brings to it, in either width.
 template <class R>
@@ -88,55 +90,6 @@ Series errors(const Model<float>& narrow, const Model<double>& exact,
 /// Keeps what is computed from being thrown away, and where the next call needs it, in order.
 volatile float sink;
 
-struct Costs {
-  double batch[3], single[3];  ///< evaluate, pdf, sample
-};
-
-template <template <class> class Model>
-Costs costs(const materials::Layout& layout, const std::vector<float>& numbers,
-            const std::vector<Hit<float>>& hits) {
-  const auto evaluate = [&](const Model<float>& m, const Hit<float>& h) {
-    return m.evaluate(h.wo, h.wi).f[0];
-  };
-  const auto pdf = [&](const Model<float>& m, const Hit<float>& h) { return m.pdf(h.wo, h.wi)[0]; };
-  const auto sample = [&](const Model<float>& m, const Hit<float>& h) {
-    const auto s = m.sample(h.wo, h.u[0], h.u[1], h.u[2]);
-    return s ? s->f[0] : 0.0f;
-  };
-  // Each hit with its own numbers, one after the other: throughput.
-  std::vector<float> many;
-  for (int i = 0; i < kHits; ++i) many.insert(many.end(), numbers.begin(), numbers.end());
-  const auto batch = [&](const auto& call) {
-    return [&, call] {
-      float sum = 0;
-      for (std::size_t i = 0; i < hits.size(); ++i)
-        sum += call(Model<float>(layout, many.data() + i * numbers.size()), hits[i]);
-      sink = sum;
-    };
-  };
-  // Each call waits for the result of the one before: latency.
-  const auto single = [&](const auto& call) {
-    return [&, call] {
-      float last = 0;
-      for (std::size_t i = 0; i < hits.size(); ++i) {
-        Hit<float> h = hits[i];
-        h.wo.x += last * 1e-30f;
-        last = call(Model<float>(layout, numbers.data()), h);
-      }
-      sink = last;
-    };
-  };
-  const auto series = interleave(
-      {batch(evaluate), batch(pdf), batch(sample), single(evaluate), single(pdf), single(sample)},
-      kHits, kRounds);
-  Costs c{};
-  for (int k = 0; k < 3; ++k) {
-    c.batch[k] = median(series[k]);
-    c.single[k] = median(series[3 + k]);
-  }
-  return c;
-}
-
 /// Variants of models that cost other than their examples.
 constexpr const char* kVariants[] = {
     "microfacet(0.8, 0.4, 0.8)",
@@ -167,43 +120,102 @@ Made make(std::string_view text, bool volume) {
   return {materials::Layout(*source->layout), {numbers.begin(), numbers.end()}};
 }
 
+/// A material on its way to its row.
+struct Row {
+  std::string text;
+  Series errors;
+  std::vector<std::function<void()>> calls;  ///< evaluate, pdf, sample; then the same alone
+};
+
 template <template <class> class Model>
-std::string row_of(std::string_view text, const Made& made) {
+Row row_of(std::string_view text, const Made& made) {
   const std::vector<double> same(made.numbers.begin(), made.numbers.end());
   const Model<double> exact(made.layout, same.data());
-  const Model<float> rounded(made.layout, made.numbers.data());
   const auto hits = hits_of(exact);
-  const auto narrow_hits = narrow(hits);
-  const Series e = errors(rounded, exact, hits, narrow_hits);
-  const Costs c = costs<Model>(made.layout, made.numbers, narrow_hits);
-  const std::string error =
-      e.empty() ? "| | |" : fmt::format("| {:.1f} | {:.0f} |", median(e), quantile(e, 0.999));
-  return fmt::format("| `{}` | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} {}\n", text,
-                     c.batch[0], c.batch[1], c.batch[2], c.single[0], c.single[1], c.single[2],
-                     error);
+  struct State {
+    Made made;
+    std::vector<Hit<float>> hits;
+    std::vector<float> many;  ///< numbers of its own for each hit
+  };
+  const auto state = std::make_shared<State>(State{made, narrow(hits), {}});
+  for (int i = 0; i < kHits; ++i)
+    state->many.insert(state->many.end(), made.numbers.begin(), made.numbers.end());
+
+  const auto evaluate = [](const Model<float>& m, const Hit<float>& h) {
+    return m.evaluate(h.wo, h.wi).f[0];
+  };
+  const auto pdf = [](const Model<float>& m, const Hit<float>& h) { return m.pdf(h.wo, h.wi)[0]; };
+  const auto sample = [](const Model<float>& m, const Hit<float>& h) {
+    const auto s = m.sample(h.wo, h.u[0], h.u[1], h.u[2]);
+    return s ? s->f[0] : 0.0f;
+  };
+  // Each hit with its own numbers, one after the other: throughput.
+  const auto batch = [&](auto call) {
+    return [state, call] {
+      float sum = 0;
+      const std::size_t stride = state->made.numbers.size();
+      for (std::size_t i = 0; i < state->hits.size(); ++i)
+        sum +=
+            call(Model<float>(state->made.layout, state->many.data() + i * stride), state->hits[i]);
+      sink = sum;
+    };
+  };
+  // Each call waits for the result of the one before: latency.
+  const auto single = [&](auto call) {
+    return [state, call] {
+      float last = 0;
+      for (Hit<float> h : state->hits) {
+        h.wo.x += last * 1e-30f;
+        last = call(Model<float>(state->made.layout, state->made.numbers.data()), h);
+      }
+      sink = last;
+    };
+  };
+  return {
+      std::string(text),
+      errors(Model<float>(made.layout, made.numbers.data()), exact, hits, state->hits),
+      {batch(evaluate), batch(pdf), batch(sample), single(evaluate), single(pdf), single(sample)}};
 }
 
-std::string document() {
-  std::string table =
-      "| material | evaluate | pdf | sample | evaluate alone | pdf alone | sample alone | error, "
-      "median | error, 999 of 1000 |\n|---|---|---|---|---|---|---|---|---|\n";
+std::vector<Row> rows() {
+  std::vector<Row> all;
   for (const vm::Builtin& row : materials::rows()) {
     const bool volume =
         (materials::traits(materials::Lobe(row.lobe)) & materials::PhaseFunction) != 0;
     const Made made = make(row.example, volume);
-    table +=
-        volume ? row_of<materials::Phase>(row.example, made) : row_of<Surface>(row.example, made);
+    all.push_back(volume ? row_of<materials::Phase>(row.example, made)
+                         : row_of<Surface>(row.example, made));
   }
-  for (const char* text : kVariants) table += row_of<Surface>(text, make(text, false));
+  for (const char* text : kVariants) all.push_back(row_of<Surface>(text, make(text, false)));
+  return all;
+}
+
+std::string document() {
+  const std::vector<Row> all = rows();
+  // All materials in every round, so that a machine whose speed changes is the same to each.
+  std::vector<std::function<void()>> calls;
+  for (const Row& r : all) calls.insert(calls.end(), r.calls.begin(), r.calls.end());
+  const std::vector<Series> times = interleave(calls, kHits, kRounds);
+  std::string table =
+      "| material | evaluate | pdf | sample | evaluate alone | pdf alone | sample alone | error, "
+      "median | error, 999 of 1000 |\n|---|---|---|---|---|---|---|---|---|\n";
+  std::size_t column = 0;
+  for (const Row& r : all) {
+    table += fmt::format("| `{}` |", r.text);
+    for (std::size_t k = 0; k < r.calls.size(); ++k)
+      table += fmt::format(" {:.0f} |", median(times[column++]));
+    table += r.errors.empty()
+                 ? " | |\n"
+                 : fmt::format(" {:.1f} | {:.0f} |\n", median(r.errors), quantile(r.errors, 0.999));
+  }
   return fmt::format(
       "## Materials, ns a hit\n\nAll eight wavelengths of a hit in float, the choice among parts "
-      "included: the median of {} rounds\nover {} hits, half of whose directions are the model's "
-      "own "
-      "samples. First as the renderer calls them, hit after\nhit with numbers of its own; then "
-      "`alone`, where each call waits for the one before. `error` is how far f in float is\nfrom f "
-      "in double at the same numbers, in units of 2^-24 of it; models that are ideally specular "
-      "have "
-      "no f. `./run bench`, or\n`bench_materials` alone.\n\n{}",
+      "included: the median of {} rounds, of all\nmaterials in turn, over {} hits, half of whose "
+      "directions are the model's own samples. First as the renderer calls\nthem, hit after hit "
+      "with numbers of its own; then `alone`, where each call waits for the one before. `error` is "
+      "how\nfar f in float is from f in double at the same numbers, in units of 2^-24 of it; "
+      "models "
+      "that are ideally specular have\nno f. `./run bench`, or `bench_materials` alone.\n\n{}",
       kRounds, kHits, table);
 }
 

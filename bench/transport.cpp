@@ -301,30 +301,38 @@ double samples_to(const Rendered& r, double target) {
 }
 
 std::string speed() {
-  constexpr int kSide = 512;
-  std::string text =
+  constexpr int kSide = 512, kRounds = 5;
+  std::string text = fmt::format(
       "## Samples a second, time to an error\n\n"
-      "Scene `sphere`, 512x512 pixels of 4 samples. Time to 1%: until the root mean square over "
-      "pixels of the\nstandard error is a hundredth of the mean luminance, from the error of 64 "
-      "samples at 128x128 and a fall of\n1 / sqrt(n): an upper bound, since the sequence falls "
-      "faster. One thread by the processor's\nseconds, two by the clock, at a load average of " +
-      load() +
-      ". Fill: mean lanes of a run of the machine over the width\nof a batch.\n\n"
+      "Scene `sphere`, 512x512 pixels of 2 samples, on one thread and on two in turn: medians of "
+      "{} rounds, of the ratio\nwith quartiles. Time to 1%: until the root mean square over pixels "
+      "of the standard error is a hundredth of the mean\nluminance, from the error of 64 samples "
+      "at 128x128 and a fall of 1 / sqrt(n): an upper bound, since the sequence falls\nfaster. One "
+      "thread by the processor's seconds, two and the ratio by the clock, at a load average of {}. "
+      "Fill: mean\nlanes of a run of the machine over the width of a batch.\n\n"
       "| material | million samples a second, 1 thread | 2 threads | ratio | samples a pixel to 1% "
-      "| seconds, 1 thread | 2 threads | fill |\n|---|---|---|---|---|---|---|---|\n";
+      "| seconds, 1 thread | 2 threads | fill |\n|---|---|---|---|---|---|---|---|\n",
+      kRounds, load());
   for (const Material& m : materials()) {
     const Setting s(m.script, "sphere");
-    const auto [seconds, one] = charged([&] { return s.render(kSide, 4, 1); });
-    const Rendered two = s.render(kSide, 4, 2);
-    const double rate = double(one.report.paths) / seconds,
-                 both = double(two.report.paths) / two.report.seconds;
+    Series rates, both_rates, gains;
+    double fill = 0, runs = 0;
+    for (int r = 0; r < kRounds; ++r) {
+      const auto [seconds, one] = charged([&] { return s.render(kSide, 2, 1); });
+      const Rendered two = s.render(kSide, 2, 2);
+      rates.push_back(double(one.report.paths) / seconds);
+      both_rates.push_back(double(two.report.paths) / two.report.seconds);
+      gains.push_back(one.report.seconds / two.report.seconds);
+      fill = one.report.batch_fill;
+      runs = double(one.report.script_runs);
+    }
+    const double rate = median(rates), both = median(both_rates);
     const Rendered fine = s.render(128, 64, 2);
     const double n = samples_to(fine, 0.01 * mean_luminance(fine.film));
-    text += fmt::format(
-        "| {} | {:.2f} | {:.2f} | {:.2f} | {:.0f} | {:.1f} | {:.1f} | {} |\n", m.name, rate / 1e6,
-        both / 1e6, both / rate, n, n * kSide * kSide / rate, n * kSide * kSide / both,
-        one.report.script_runs > 0 ? fmt::format("{:.0f}%", 100 * one.report.batch_fill)
-                                   : "no runs");
+    text += fmt::format("| {} | {:.2f} | {:.2f} | {} | {:.0f} | {:.1f} | {:.1f} | {} |\n", m.name,
+                        rate / 1e6, both / 1e6, quartiles(gains, "{:.2f}"), n,
+                        n * kSide * kSide / rate, n * kSide * kSide / both,
+                        runs > 0 ? fmt::format("{:.0f}%", 100 * fill) : "no runs");
   }
   return text;
 }

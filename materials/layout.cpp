@@ -48,7 +48,6 @@ Layout::Layout(const vm::MaterialLayout& material) {
     const unsigned t = traits(node.lobe);
     has_specular_ |= (t & (Specular | Polished)) != 0;
     has_smooth_ |= (t & (Specular | Combiner)) == 0;
-    dispersive_ |= (t & Dispersive) != 0;
     transmits_ |= (t & Transmits) != 0;
     reflects_ |= (t & Reflects) != 0;
     phase_ |= (t & PhaseFunction) != 0;

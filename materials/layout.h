@@ -48,17 +48,14 @@ class Layout {
   // because its roughness may be 0 at a point.
   bool has_specular() const { return has_specular_; }  ///< may hold a delta
   bool has_smooth() const { return has_smooth_; }      ///< may hold something that is not a delta
-  bool dispersive() const { return dispersive_; }      ///< directions may depend on wavelength
   bool transmits() const { return transmits_; }
   bool reflects() const { return reflects_; }
   bool phase() const { return phase_; }  ///< holds a phase function: for `Phase`, not `Bsdf`
-  /// f(wo, wi) / eta(wi)^2 is symmetric: true of every model here.
-  bool reciprocal() const { return true; }
 
  private:
   std::vector<Node> nodes_;
   int param_count_ = 0;
-  bool has_specular_ = false, has_smooth_ = false, dispersive_ = false;
+  bool has_specular_ = false, has_smooth_ = false;
   bool transmits_ = false, reflects_ = false, phase_ = false;
 };
 

@@ -11,51 +11,58 @@ using mms::cli::Outcome;
 
 #if MMS_RENDERER
 
+namespace {
+
+/// `until_line COUNT TEXT` waits for the COUNT-th line with TEXT in the file `log`.
+const std::string kWaiting = R"BASH(
+fail() { echo "$*"; cat log err; kill -9 $child; exit 1; }
+until_line() {
+  for i in $(seq 1500); do
+    [ "$(grep -c "$2" log)" -ge "$1" ] && return; sleep 0.02
+  done
+  fail "no $1. line with $2"
+}
+touch log err
+)BASH";
+
+}  // namespace
+
 TEST_CASE(
     "a watched picture follows the script, its imports, images and the scene, past mistakes") {
   const Folder folder;
   folder.write("s.mms", "surface \"s\" bsdf = matte(0.5); end\n");
   folder.write("scene.json",
                R"({"environment": {"constant": 1}, "objects": [{"sphere": {}, "test": true}]})");
-  // `until_line TEXT COUNT`: waits for the COUNT-th line with TEXT; `same`: the picture is the one
-  // that a plain render makes.
-  const Outcome run = folder.bash(R"BASH(
+  // `same`: the picture is the one that a plain render makes.
+  const Outcome run = folder.bash(kWaiting + R"BASH(
 options="--size 24x24 --samples 3 --seed 9 --scene scene.json"
-fail() { echo "$*"; cat log err; kill -9 $child; exit 1; }
-until_line() {
-  for i in $(seq 1500); do
-    [ "$(grep -c "$1" log)" -ge "$2" ] && return; sleep 0.02
-  done
-  fail "no $2. line with $1"
-}
 same() {
   mms render s.mms --quiet $options -o plain.png || fail "$1 does not render"
   cmp plain.png p.png || fail "the $1 is another"
 }
-touch log err
 mms-render render s.mms $options --watch --format=json -o p.png >log 2>err & child=$!
-until_line '"seconds"' 1
+until_line 1 '"seconds"'
 same first
 cp p.png before.png
 echo 'import "lib.mms"; surface "s" bsdf = matte(shade); end' >new; mv new s.mms
-until_line '"code"' 1
+until_line 1 '"code"'
 cmp before.png p.png || fail "a mistake changed the picture"
 echo 'const real shade = 0.2;' >lib.mms
-until_line '"seconds"' 2
+until_line 2 '"seconds"'
 same second
 echo 'const real shade = 0.7;' >lib.mms
-until_line '"seconds"' 3
+until_line 3 '"seconds"'
 same third
 sed 's/"constant": 1/"constant": 0.5/' scene.json >new; mv new scene.json
-until_line '"seconds"' 4
+until_line 4 '"seconds"'
 same fourth
 printf 'P6 1 1 255\n\300\100\040' >p.ppm
 echo 'surface "s" bsdf = matte(image("p.ppm", $uv)); end' >new; mv new s.mms
-until_line '"seconds"' 5
+until_line 5 '"seconds"'
 same fifth
 cp p.png before.png
 printf 'P6 1 1 255\n\040\100\300' >new; mv new p.ppm
-until_line '"seconds"' 6
+until_line 6 '"seconds"'
 same sixth
 cmp -s before.png p.png && fail "another image changed nothing"
 kill -INT $child; wait $child; echo "ended $?"
@@ -72,16 +79,7 @@ TEST_CASE("files that a watched picture waits for: not there yet, deleted and wr
                R"(import "lib.mms"; surface "s" bsdf = matte(image("maps/p.ppm", $uv)); end)");
   folder.write("scene.json", R"({"environment": {"image": "sky.ppm"},
                                  "objects": [{"sphere": {}, "test": true}]})");
-  const Outcome run = folder.bash(R"BASH(
-fail() { echo "$*"; cat log; kill -9 $child; exit 1; }
-# `until_line COUNT TEXT`: waits for the COUNT-th line with TEXT.
-until_line() {
-  for i in $(seq 1500); do
-    [ "$(grep -c "$2" log)" -ge "$1" ] && return; sleep 0.02
-  done
-  fail "no $1. line with $2"
-}
-touch log
+  const Outcome run = folder.bash(kWaiting + R"BASH(
 mms-render render s.mms --size 24x24 --samples 3 --scene scene.json --watch -o p.png >log 2>&1 & child=$!
 until_line 1 'lib.mms'
 echo 'const real unused = 1;' >lib.mms
@@ -110,16 +108,7 @@ kill -INT $child; wait $child; echo "ended $?"
 TEST_CASE("a watched picture follows the environment that it was given") {
   const Folder folder;
   folder.write("s.mms", "surface s bsdf = matte(0.5); end\n");
-  const Outcome run = folder.bash(R"BASH(
-fail() { echo "$*"; cat log; kill -9 $child; exit 1; }
-# `until_line COUNT TEXT`: waits for the COUNT-th line with TEXT.
-until_line() {
-  for i in $(seq 1500); do
-    [ "$(grep -c "$2" log)" -ge "$1" ] && return; sleep 0.02
-  done
-  fail "no $1. line with $2"
-}
-touch log
+  const Outcome run = folder.bash(kWaiting + R"BASH(
 mms-render render s.mms --size 24x24 --samples 3 --scene furnace --environment sky.ppm --watch -o p.png >log 2>&1 & child=$!
 until_line 1 'sky.ppm'
 printf 'P6 1 1 255\n@@@' >new; mv new sky.ppm

@@ -51,7 +51,6 @@ TEST_CASE("layout offsets and flags") {
   CHECK(l.nodes()[2].children[1] == 1);
   CHECK(l.has_specular());
   CHECK(l.has_smooth());
-  CHECK(l.dispersive());
   CHECK(l.transmits());
   CHECK(l.reflects());
   CHECK(!l.phase());
@@ -59,7 +58,6 @@ TEST_CASE("layout offsets and flags") {
   const Layout plain = matte(0.5).layout();
   CHECK(!plain.has_specular());
   CHECK(!plain.transmits());
-  CHECK(!plain.dispersive());
   const Layout polished = mirror(1).layout();
   CHECK(!polished.has_smooth());
   CHECK(Layout().empty());
