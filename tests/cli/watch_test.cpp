@@ -13,7 +13,8 @@ using mms::cli::Outcome;
 
 namespace {
 
-/// `until_line COUNT TEXT` waits for the COUNT-th line with TEXT in the file `log`.
+/// `until_line COUNT TEXT` waits for the COUNT-th line with TEXT in the file `log`; `end_as_another
+/// WHAT` ends the watching.
 const std::string kWaiting = R"BASH(
 fail() { echo "$*"; cat log err; kill -9 $child; exit 1; }
 until_line() {
@@ -21,6 +22,11 @@ until_line() {
     [ "$(grep -c "$2" log)" -ge "$1" ] && return; sleep 0.02
   done
   fail "no $1. line with $2"
+}
+# The picture has become another than before.png; the end.
+end_as_another() {
+  cmp -s before.png p.png && fail "another $1 changed nothing"
+  kill -INT $child; wait $child; echo "ended $?"
 }
 touch log err
 )BASH";
@@ -64,8 +70,7 @@ cp p.png before.png
 printf 'P6 1 1 255\n\040\100\300' >new; mv new p.ppm
 until_line 6 '"seconds"'
 same sixth
-cmp -s before.png p.png && fail "another image changed nothing"
-kill -INT $child; wait $child; echo "ended $?"
+end_as_another image
 grep -c first_picture_seconds log
 )BASH");
   INFO(run.out, run.err);
@@ -97,8 +102,7 @@ until_line 2 'does not exist'
 printf 'P6 1 1 255
  @À' >maps/new; mv maps/new maps/p.ppm
 until_line 2 'estimated error'
-cmp -s before.png p.png && fail "another image changed nothing"
-kill -INT $child; wait $child; echo "ended $?"
+end_as_another image
 )BASH");
   INFO(run.out, run.err);
   CHECK(run.exit == 0);
@@ -116,8 +120,7 @@ until_line 1 'estimated error'
 cp p.png before.png
 printf 'P6 1 1 255\nccc' >new; mv new sky.ppm
 until_line 2 'estimated error'
-cmp -s before.png p.png && fail "another picture changed nothing"
-kill -INT $child; wait $child; echo "ended $?"
+end_as_another picture
 )BASH");
   INFO(run.out, run.err);
   CHECK(run.exit == 0);
