@@ -71,11 +71,26 @@ class Bsdf {
   /// Densities without deltas.
   Spectrum<R> pdf(Vec3<R> wo, Vec3<R> wi, Mode mode) const { return evaluate(wo, wi, mode).pdf; }
 
+  /// How likely each lobe is chosen, for each wavelength as the hero.
+  struct Choice {
+    PerNode<Spectrum<R>> probability;  ///< of lobes only
+    bool any = false;                  ///< the hero has something to choose from
+  };
+  /// For all that comes along `wo`: made once where one `wo` meets many `wi`.
+  Choice choose(Vec3<R> wo) const;
+
   /// `eval` and `pdf` at once, for about the price of one.
-  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode) const;
+  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode) const {
+    return evaluate(wo, wi, mode, choose(wo));
+  }
+  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const;
 
   /// Draws `wi` for the hero from three numbers in [0, 1).
-  std::optional<BsdfSample<R>> sample(Vec3<R> wo, R u_lobe, R u1, R u2, Mode mode) const;
+  std::optional<BsdfSample<R>> sample(Vec3<R> wo, R u_lobe, R u1, R u2, Mode mode) const {
+    return sample(wo, u_lobe, u1, u2, mode, choose(wo));
+  }
+  std::optional<BsdfSample<R>> sample(Vec3<R> wo, R u_lobe, R u1, R u2, Mode mode,
+                                      const Choice& choice) const;
 
   bool transmits() const { return layout_->transmits(); }
 
@@ -83,13 +98,7 @@ class Bsdf {
   bool specular_only() const;
 
  private:
-  /// How likely each lobe is chosen, for each wavelength as the hero.
-  struct Choice {
-    PerNode<Spectrum<R>> probability;  ///< of lobes only
-    bool any = false;                  ///< the hero has something to choose from
-  };
-  void choose(Vec3<R> wo, Choice& choice) const;
-  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const;
+  Lobes<R> sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const;
   std::optional<BsdfSample<R>> sample_specular(int lobe, Vec3<R> wo, R u, Mode mode,
                                                const Choice& choice) const;
   std::optional<BsdfSample<R>> sample_smooth(int lobe, Vec3<R> wo, R u, R u1, R u2, Mode mode,
@@ -232,33 +241,49 @@ bool Bsdf<R>::specular_only() const {
 }
 
 template <class R>
-void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
+typename Bsdf<R>::Choice Bsdf<R>::choose(Vec3<R> wo) const {
+  Choice choice;
+  if (node_count() == 0 || in_surface(wo)) return choice;
   auto& probability = choice.probability.of;
+  const auto estimate = [&](int i) {
+    return with_model(i, Spectrum<R>(), [&](const auto& m) { return m.estimate(wo); });
+  };
+  // Below this the inverse would overflow: black.
+  constexpr R least = std::numeric_limits<R>::min() / std::numeric_limits<R>::epsilon();
+  if (node_count() == 1) {
+    probability[0] = Spectrum<R>::map([](R x) { return R(x > least); }, estimate(0));
+    choice.any = probability[0][0] > 0;
+    return choice;
+  }
   Spectrum<R> sum;
-  if (node_count() > 0) weigh_for_choice(*layout_, params_, std::abs(wo.z), choice.probability);
+  weigh_for_choice(*layout_, params_, std::abs(wo.z), choice.probability);
   for (int i = 0; i < node_count(); ++i) {
-    probability[i] *= with_model(i, Spectrum<R>(), [&](const auto& m) { return m.estimate(wo); });
+    probability[i] *= estimate(i);
     sum += probability[i];
   }
-  // Below this the inverse would overflow: black.
-  const R least = std::numeric_limits<R>::min() / std::numeric_limits<R>::epsilon();
   for (int j = 0; j < kWavelengths; ++j) sum[j] = sum[j] > least ? 1 / sum[j] : R(0);
   for (int i = 0; i < node_count(); ++i) probability[i] *= sum;
   choice.any = sum[0] > 0;
-}
-
-template <class R>
-Lobes<R> Bsdf<R>::evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode) const {
-  if (in_surface(wo) || in_surface(wi)) return {};
-  Choice choice;
-  choose(wo, choice);
-  return evaluate(wo, wi, mode, choice);
+  return choice;
 }
 
 template <class R>
 Lobes<R> Bsdf<R>::evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const {
+  if (node_count() == 0 || in_surface(wo) || in_surface(wi)) return {};
+  if (node_count() > 1) return sum_of_lobes(wo, wi, mode, choice);
+  return with_model(0, Lobes<R>(), [&](const auto& model) {
+    Lobes<R> l;
+    if constexpr (detail::CanBeSmooth<std::decay_t<decltype(model)>>) {
+      if (!detail::is_specular(model)) l = model.evaluate(wo, wi, mode);
+      l.pdf *= choice.probability.of[0];
+    }
+    return l;
+  });
+}
+
+template <class R>
+Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const {
   Lobes<R> total;
-  if (node_count() == 0) return total;
   PerNode<NodeWeight<R>> weights;
   weigh(*layout_, params_, std::abs(wo.z), std::abs(wi.z), mode, weights);
   for (int i = 0; i < node_count(); ++i) {
@@ -286,11 +311,9 @@ Lobes<R> Bsdf<R>::evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choi
 }
 
 template <class R>
-std::optional<BsdfSample<R>> Bsdf<R>::sample(Vec3<R> wo, R u_lobe, R u1, R u2, Mode mode) const {
-  if (in_surface(wo)) return {};
-  Choice choice;
-  choose(wo, choice);
-  if (!choice.any) return {};
+std::optional<BsdfSample<R>> Bsdf<R>::sample(Vec3<R> wo, R u_lobe, R u1, R u2, Mode mode,
+                                             const Choice& choice) const {
+  if (in_surface(wo) || !choice.any) return {};
   // Choose a lobe by the hero's probabilities, and stretch what is left of the number.
   int chosen = -1;
   R u = 0;
@@ -353,7 +376,7 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u,
   PerNode<NodeWeight<R>> weights;
   weigh(*layout_, params_, std::abs(wo.z), cos_i, mode, weights);
   for (int i = 0; i < node_count(); ++i) {
-    const SpecularTerms<R> t = terms_of(i);
+    const SpecularTerms<R> t = i == lobe ? mine : terms_of(i);
     for (int j = 0; j < kWavelengths; ++j) {
       if (!reflect && t.eta[j] != eta) continue;
       const R scale = reflect || mode == Mode::Importance ? R(1) : 1 / (eta * eta);

@@ -77,7 +77,19 @@ struct Integrator::Scatterer {
   const float* params;
   bool medium = false;
   Frame<double> frame;
-  int directions = 1;  ///< that are drawn: densities are of all of them
+  Vec3f view;                  ///< of a surface, in its frame
+  Bsdf<float>::Choice choice;  ///< likewise
+  int directions = 1;          ///< that are drawn: densities are of all of them
+
+  /// Of a medium.
+  Scatterer(const materials::Layout& l, const float* p) : layout(l), params(p), medium(true) {}
+  /// Of a surface, seen along `from`.
+  Scatterer(const materials::Layout& l, const float* p, const Frame<double>& f, Vec3d from)
+      : layout(l),
+        params(p),
+        frame(f),
+        view(f.to_local(from)),
+        choice(Bsdf<float>(l, p).choose(view)) {}
 
   /// Normal of the `Receiver` there. What `consistent` leaves out comes from below the horizon.
   Vec3f receiver(const ScriptPoint& p) const {
@@ -103,8 +115,8 @@ struct Integrator::Scatterer {
     }
     if (!consistent(p.surface, frame, wi)) return {wi, {}, {}};
     const Bsdf<float> bsdf(layout, params);
-    const Vec3f wo(frame.to_local(p.view)), local(frame.to_local(wi));
-    const auto lobes = bsdf.evaluate(wo, local, Mode::Radiance);
+    const Vec3f local(frame.to_local(wi));
+    const auto lobes = bsdf.evaluate(view, local, Mode::Radiance, choice);
     return {wi, lobes.f * std::abs(local.z), lobes.pdf * float(directions)};
   }
 
@@ -114,8 +126,7 @@ struct Integrator::Scatterer {
       if (!s) return {};
       return Sampled{Vec3d(s->wi), s->f, s->pdf * float(directions)};
     }
-    const Vec3f wo(frame.to_local(p.view));
-    const auto s = Bsdf<float>(layout, params).sample(wo, u_lobe, u, v, Mode::Radiance);
+    const auto s = Bsdf<float>(layout, params).sample(view, u_lobe, u, v, Mode::Radiance, choice);
     if (!s) return {};
     const Vec3d wi = normalize(frame.to_world(Vec3d(s->wi)));
     if (!consistent(p.surface, frame, wi)) return {};
@@ -281,7 +292,8 @@ void Integrator::shade(std::span<const Vertex> group) {
       const Spectrumf albedo = fixed_albedo(fixed, *v.point.object, s.position, *v.point.cluster);
       if (albedo.is_black()) continue;
       std::copy(albedo.v.begin(), albedo.v.end(), params_.begin());
-      scatter(v, {matte_layout(), params_.data(), false, shading_frame(s, {0, 0}, v.point.view)});
+      scatter(v, {matte_layout(), params_.data(), shading_frame(s, {0, 0}, v.point.view),
+                  v.point.view});
     }
     return;
   }
@@ -307,20 +319,20 @@ void Integrator::shade(std::span<const Vertex> group) {
       continue;
     }
     if (medium) {
-      scatter(v, {lost ? isotropic_layout() : c.material, params, true, {}});
+      scatter(v, {lost ? isotropic_layout() : c.material, params});
       continue;
     }
     const SurfacePoint& s = v.point.surface;
     if (lost) {
       std::fill_n(params, kWavelengths, 1.0f);
-      scatter(v, {matte_layout(), params, false, shading_frame(s, {0, 0}, v.point.view)});
+      scatter(v, {matte_layout(), params, shading_frame(s, {0, 0}, v.point.view), v.point.view});
       continue;
     }
     if (world_.nested) immerse(c.material, v.outside, params);
     if (c.emits)
       add_emission(v, scripted_emission(world_.compiled, scripts_, *d, EntryKind::Shade, i, s,
                                         v.point.view, scratch_));
-    scatter(v, {c.material, params, false, shading_frame(s, gradient, v.point.view)});
+    scatter(v, {c.material, params, shading_frame(s, gradient, v.point.view), v.point.view});
   }
 }
 
@@ -455,11 +467,13 @@ void Integrator::connect(const Vertex& v, const Scatterer& s, const LightSample&
   f.carried.beta *= towards.f;
   f.carried.light_pdf = f.carried.pdf;
   f.carried.pdf *= towards.pdf;
+  bool scripted = false;
   if (light.object == kEnvironment) {
     f.carried.beta *= world_.lights.environment(light.direction, p.cluster);
   } else {
     const Surface& surface = world_.surface_of_object(light.object);
-    if (!surface.script)
+    scripted = surface.script;
+    if (!scripted)
       f.carried.beta *= fixed_emission(surface.fixed, light.surface, -light.direction, p.cluster);
   }
   if (f.carried.beta.is_black()) return;
@@ -481,7 +495,7 @@ void Integrator::connect(const Vertex& v, const Scatterer& s, const LightSample&
   f.step = 0;
   f.stream = 2 * std::uint32_t(p.depth) + 1;
   f.light_density = light.pdf;
-  connections_.push_back({int(shadows_.size()), light});
+  if (scripted) connections_.push_back({int(shadows_.size()), light});
   shadows_.push_back(f);
 }
 
