@@ -62,7 +62,7 @@ class Integrator {
     int kind;  ///< as in Vertex
     const Flight* flight;
   };
-  /// Light drawn for a vertex, on its way to be asked for and shadowed.
+  /// Light drawn for a vertex of which a script is to say what it radiates.
   struct Connection {
     int flight;  ///< in shadows_
     LightSample light;

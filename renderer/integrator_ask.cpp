@@ -18,21 +18,17 @@ void Integrator::ask_surroundings() {
 
 /// Asks scripted emitters what they radiate towards the vertices that drew them.
 void Integrator::ask_emitters() {
-  std::vector<Connection> asked;
-  for (const Connection& c : connections_)
-    if (c.light.object != kEnvironment && world_.surface_of_object(c.light.object).script)
-      asked.push_back(c);
   const auto surface_index = [&](const Connection& c) {
     return world_.scene.objects[c.light.object].surface;
   };
-  std::ranges::stable_sort(asked, {}, surface_index);
+  std::ranges::stable_sort(connections_, {}, surface_index);
   const auto ask = [&](std::span<const Connection> batch) {
     light_points_.clear();
     for (const Connection& c : batch) {
       ScriptPoint q;
       q.object = &world_.scene.objects[c.light.object];
       q.cluster = &paths_[shadows_[c.flight].path].cluster;
-      q.surface = c.light.surface;
+      q.surface = complete(q.object->shape, c.light.surface);
       q.view = -c.light.direction;
       q.distance = shadows_[c.flight].t_max;
       light_points_.push_back(q);
@@ -50,7 +46,7 @@ void Integrator::ask_emitters() {
       shadows_[batch[lane].flight].carried.beta *= emitted;
     }
   };
-  for_each_batch(std::span(asked), scripts_.width(), surface_index, ask);
+  for_each_batch(std::span(connections_), scripts_.width(), surface_index, ask);
 }
 
 }  // namespace mms::renderer

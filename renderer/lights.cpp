@@ -51,7 +51,7 @@ double to_solid_angle(double pdf_area, Vec3d from, const SurfacePoint& at) {
 }
 
 SurfacePoint sample_sphere(const Sphere& s, Vec3d from, double u, double v) {
-  if (!outside(s, from)) return surface_at(s, s.centre + square_to_sphere(u, v) * s.radius);
+  if (!outside(s, from)) return place_at(s, s.centre + square_to_sphere(u, v) * s.radius);
   const double one_minus_cos = u * one_minus_cos_cone(s, from);
   const double sine = std::sqrt(one_minus_cos * (2 - one_minus_cos));
   const Frame<double> f = Frame<double>::around(normalize(s.centre - from));
@@ -59,7 +59,7 @@ SurfacePoint sample_sphere(const Sphere& s, Vec3d from, double u, double v) {
       f.to_world({sine * std::cos(kTwoPi * v), sine * std::sin(kTwoPi * v), 1 - one_minus_cos});
   const Roots r = intersect(s, from, d, 0, 1e300);
   // At the rim rounding may miss the sphere: its point nearest to the ray.
-  return surface_at(s, from + d * (r.count > 0 ? r.t[0] : dot(s.centre - from, d)));
+  return place_at(s, from + d * (r.count > 0 ? r.t[0] : dot(s.centre - from, d)));
 }
 
 /// Mean of the cosine over a light that fills a cone of sine `blur`, `cosine` in its middle, where
@@ -248,7 +248,7 @@ Lights::Drawn Lights::choose(const Receiver& from, double& u) const {
 SurfacePoint Lights::place(const Choice& c, double u, double v) const {
   const Shape& shape = scene_->objects[c.object].shape;
   const Mesh* m = std::get_if<Mesh>(&shape);
-  if (!m) return sample_surface(shape, u, v);
+  if (!m) return sample_place(shape, u, v);
   double rest = 0;
   const int t = step_of(c.triangles.data(), int(m->triangles.size()), u, rest);
   const double r = std::sqrt(rest);
@@ -260,7 +260,8 @@ SurfacePoint Lights::place(const Choice& c, double u, double v) const {
 EmissionPoint Lights::sample_point(double u, double v) const {
   double rest = 0;
   const Choice& c = choices_[step_of(powers_.data(), int(powers_.size()) - 1, u, rest)];
-  return {c.object, place(c, rest, v), pdf_point(c.object)};
+  const SurfacePoint at = place(c, rest, v);
+  return {c.object, complete(scene_->objects[c.object].shape, at), pdf_point(c.object)};
 }
 
 double Lights::pdf_point(int object) const {

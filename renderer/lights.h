@@ -32,7 +32,7 @@ struct Receiver {
 /// A direction towards a light, as seen from some point.
 struct LightSample {
   int object = kEnvironment;  ///< index into SceneData::objects
-  SurfacePoint surface;       ///< of the object
+  SurfacePoint surface;       ///< of the object; as `sample_place` gives it
   Vec3d direction;            ///< unit, towards the light
   double pdf = 0;             ///< per steradian, choice of the light included; 0: no sample
 };

@@ -54,6 +54,23 @@ void set_flat(SurfacePoint& s, Vec3d n) { s.geometric_normal = s.normal = n; }
 /// of them at most, and 2 for the rays' own arithmetic.
 double rounding_error(Vec3d p) { return 4 * kFloatEpsilon * largest(p); }
 
+SurfacePoint place_at(const Quad& s, Vec3d p) {
+  SurfacePoint r;
+  const Vec3d n = normalize(plain_cross(s.edge_u, s.edge_v));
+  r.position = p - n * dot(n, p - s.corner);
+  r.error = rounding_error(r.position);
+  set_flat(r, n);
+  return r;
+}
+
+SurfacePoint place_at(const Disc& s, Vec3d p) {
+  SurfacePoint r;
+  r.position = p - s.axes.n * dot(s.axes.n, p - s.centre);
+  r.error = rounding_error(r.position);
+  set_flat(r, s.axes.n);
+  return r;
+}
+
 }  // namespace
 
 Roots intersect(const Sphere& s, Vec3d o, Vec3d d, double t_min, double t_max) {
@@ -114,12 +131,18 @@ Roots intersect(const Box& s, Vec3d o, Vec3d d, double t_min, double t_max) {
   return r;
 }
 
-SurfacePoint surface_at(const Sphere& s, Vec3d p) {
+SurfacePoint place_at(const Sphere& s, Vec3d p) {
   SurfacePoint r;
   const Vec3d n = normalize(p - s.centre);
   r.position = s.centre + n * s.radius;
   r.error = rounding_error(r.position);
-  r.geometric_normal = r.normal = n;
+  set_flat(r, n);
+  return r;
+}
+
+SurfacePoint surface_at(const Sphere& s, Vec3d p) {
+  SurfacePoint r = place_at(s, p);
+  const Vec3d n = r.normal;
   // v from the pole +y, u around it from +x towards -z (so that u, v and the outside agree).
   const Vec3d l{dot(n, s.axes.s), dot(n, s.axes.t), dot(n, s.axes.n)};
   const double phi = std::atan2(-l.z, l.x);
@@ -138,23 +161,16 @@ SurfacePoint surface_at(const Sphere& s, Vec3d p) {
 }
 
 SurfacePoint surface_at(const Quad& s, Vec3d p) {
-  SurfacePoint r;
+  SurfacePoint r = place_at(s, p);
   r.uv = along_edges(s, p - s.corner);
-  r.position = s.corner + s.edge_u * r.uv[0] + s.edge_v * r.uv[1];
-  r.error = rounding_error(r.position);
-  set_flat(r, normalize(plain_cross(s.edge_u, s.edge_v)));
   set_tangents(r, s.edge_u, s.edge_v);
   return r;
 }
 
 SurfacePoint surface_at(const Disc& s, Vec3d p) {
-  SurfacePoint r;
+  SurfacePoint r = place_at(s, p);
   const Vec3d q = p - s.centre;
-  const double x = dot(q, s.axes.s), y = dot(q, s.axes.t);
-  r.uv = {0.5 + 0.5 * x / s.radius, 0.5 + 0.5 * y / s.radius};
-  r.position = s.centre + s.axes.s * x + s.axes.t * y;
-  r.error = rounding_error(r.position);
-  set_flat(r, s.axes.n);
+  r.uv = {0.5 + 0.5 * dot(q, s.axes.s) / s.radius, 0.5 + 0.5 * dot(q, s.axes.t) / s.radius};
   set_tangents(r, s.axes.s * (2 * s.radius), s.axes.t * (2 * s.radius));
   return r;
 }
@@ -338,14 +354,14 @@ SurfacePoint sample_box(const Box& s, double u, double v) {
 
 }  // namespace
 
-SurfacePoint sample_surface(const Shape& shape, double u, double v) {
+SurfacePoint sample_place(const Shape& shape, double u, double v) {
   if (const Sphere* s = std::get_if<Sphere>(&shape))
-    return surface_at(*s, s->centre + square_to_sphere(u, v) * s->radius);
+    return place_at(*s, s->centre + square_to_sphere(u, v) * s->radius);
   if (const Quad* q = std::get_if<Quad>(&shape))
-    return surface_at(*q, q->corner + q->edge_u * u + q->edge_v * v);
+    return place_at(*q, q->corner + q->edge_u * u + q->edge_v * v);
   if (const Disc* d = std::get_if<Disc>(&shape)) {
     const Vec3d p = square_to_disc(u, v) * d->radius;
-    return surface_at(*d, d->centre + d->axes.s * p.x + d->axes.t * p.y);
+    return place_at(*d, d->centre + d->axes.s * p.x + d->axes.t * p.y);
   }
   if (const Box* b = std::get_if<Box>(&shape)) return sample_box(*b, u, v);
   const Mesh& m = std::get<Mesh>(shape);
@@ -353,6 +369,21 @@ SurfacePoint sample_surface(const Shape& shape, double u, double v) {
   const auto triangle = std::min(std::uint32_t(n), std::uint32_t(m.triangles.size() - 1));
   const double r = std::sqrt(n - triangle);
   return surface_at(m, triangle, r * (1 - v), r * v);
+}
+
+SurfacePoint complete(const Shape& shape, const SurfacePoint& place) {
+  return std::visit(
+      [&]<class S>(const S& s) {
+        if constexpr (std::is_same_v<S, Mesh> || std::is_same_v<S, Box>)
+          return place;
+        else
+          return surface_at(s, place.position);
+      },
+      shape);
+}
+
+SurfacePoint sample_surface(const Shape& shape, double u, double v) {
+  return complete(shape, sample_place(shape, u, v));
 }
 
 double area(const Shape& s) { return std::visit(AreaOf{}, s); }
