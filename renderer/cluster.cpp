@@ -31,14 +31,13 @@ std::array<double, 3> Cluster::xyz(const Spectrumf& radiance) const {
 double cluster_number(float u, int wavelengths) {
   constexpr int kBits = 24;
   const auto x = std::uint32_t(u * float(1 << kBits));
-  const int hero_bits = std::countr_zero(unsigned(wavelengths));
+  const int hero_bits = std::countr_zero(unsigned(wavelengths)), rest = kBits - 2 * hero_bits;
   std::uint32_t hero = 0, place = 0;
-  for (int i = 0; i < kBits; ++i) {
-    const std::uint32_t digit = x >> (kBits - 1 - i) & 1;
-    const bool of_hero = i % 2 == 1 && i < 2 * hero_bits;
-    std::uint32_t& to = of_hero ? hero : place;
-    to = to << 1 | digit;
+  for (int i = hero_bits; i-- > 0;) {
+    place = place << 1 | (x >> (rest + 2 * i + 1) & 1);
+    hero = hero << 1 | (x >> (rest + 2 * i) & 1);
   }
+  place = place << rest | (x & ((1u << rest) - 1));
   return double(hero << (kBits - hero_bits) | place) / (1 << kBits);
 }
 
