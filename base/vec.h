@@ -57,12 +57,22 @@ constexpr R dot(Vec3<R> a, Vec3<R> b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/// `a b + c` of the exact product. Of floats in double, where it is exact too: the plain function
+/// is a call where not every processor has the instruction.
+template <class R>
+inline R fused(R a, R b, R c) {
+  if constexpr (std::is_same_v<R, float>)
+    return float(double(a) * double(b) + double(c));
+  else
+    return std::fma(a, b, c);
+}
+
 /// `a b - c d` with one rounding error left (Kahan's fused form).
 template <class R>
 inline R difference_of_products(R a, R b, R c, R d) {
   const R cd = c * d;
-  const R error = std::fma(-c, d, cd);
-  return std::fma(a, b, -cd) + error;
+  const R error = fused(-c, d, cd);
+  return fused(a, b, -cd) + error;
 }
 
 /// Cross product without cancellation between the two products of a component.

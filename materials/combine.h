@@ -88,24 +88,6 @@ union PerNode {
 
 namespace detail {
 
-/// Calls `body(j, repeated)` for each wavelength, `repeated` where its number is the one before.
-template <class R, class Body>
-inline void for_each_index(const R* p, Body body) {
-  for (int j = 0; j < kWavelengths; ++j) body(j, j > 0 && p[j] == p[j - 1]);
-}
-
-/// The split at |cos| `c` for each wavelength's index.
-template <class R>
-inline void fresnel_splits(const R* ior, R c, Spectrum<R>& reflected, Spectrum<R>& transmitted) {
-  c = limited(c, R(0), R(1));
-  for_each_index(ior, [&](int j, bool repeated) {
-    const FresnelSplit<R> s = repeated ? FresnelSplit<R>{reflected[j - 1], transmitted[j - 1]}
-                                       : fresnel_split(c, relative_eta(ior[j], Vec3<R>{0, 0, 1}));
-    reflected[j] = s.reflected;
-    transmitted[j] = s.transmitted;
-  });
-}
-
 /// The lobe of the child `node` where it is one whose spread is known and no mirror.
 template <class R>
 inline CoatLobe<R> coat_lobe(const Layout& layout, const R* params, int node) {
@@ -180,7 +162,9 @@ inline void weigh_fresnel_mix(const R* ior, const CoatLobe<R>& lobe, R cos_o, R 
 template <class R>
 inline void choose_fresnel_mix(const R* ior, const CoatLobe<R>& lobe, R cos_o,
                                Spectrum<R>& reflected, Spectrum<R>& transmitted) {
-  fresnel_splits(ior, cos_o, reflected, transmitted);
+  const InterfaceSplits<R> s(ior, Vec3<R>{0, 0, 1}, cos_o);
+  reflected = s.reflected;
+  transmitted = s.transmitted;
   if (!lobe.table) return;
   for (int j = 0; j < kWavelengths; ++j) {
     const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
@@ -308,7 +292,7 @@ inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const CoatedLobe<R>& o,
   cos_i = std::min(std::abs(cos_i), R(1));
   Spectrum<R> f;
   R scale = 0;
-  detail::for_each_index(w.coat, [&](int j, bool repeated) {
+  for_each_index(w.coat, [&](int j, bool repeated) {
     const R eta = relative_eta(w.coat[j], Vec3<R>{0, 0, 1});
     if (!repeated && eta > 1) {
       const auto squared = [&](const CoatedLobe<R>& lobe, R c) {

@@ -27,12 +27,13 @@ struct Dielectric {
   /// Also where refraction bends so little at every wavelength that the transmitted lobe, of width
   /// about alpha |ior - 1|, is narrower than a float direction resolves (see kMinAlpha).
   bool specular() const {
+    if (facets.specular()) return true;
     R bend = 0;
     for (int j = 0; j < kWavelengths; ++j) {
       const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
       bend = std::max(bend, std::abs(eta - 1));
     }
-    return facets.specular() || !(narrow() * bend >= R(kMinAlpha));
+    return !(narrow() * bend >= R(kMinAlpha));
   }
 
   Spectrum<R> estimate(Vec3<R> wo) const {

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vec.h"
+
 namespace mms::materials {
 
 /// Reflected and transmitted fractions of the incident power; each is computed directly.
@@ -20,8 +22,7 @@ struct FresnelSplit {
 /// two forms, c^2 + (eta^2 - 1) and eta^2 - (1 - c)(1 + c), the one that subtracts less.
 template <class R>
 inline R refraction_g2(R c, R eta) {
-  return c > R(0.7) ? std::fma(eta, eta, -(1 - c) * (1 + c))
-                    : std::fma(c, c, (eta - 1) * (eta + 1));
+  return c > R(0.7) ? fused(eta, eta, -(1 - c) * (1 + c)) : fused(c, c, (eta - 1) * (eta + 1));
 }
 
 /// Dielectric of relative index `eta` (far side over near side, > 0) at the cosine of incidence
@@ -35,11 +36,11 @@ inline FresnelSplit<R> fresnel_split(R c, R eta) {
   const R g2 = refraction_g2(c, eta);
   if (!(g2 > 0)) return {R(1), R(0)};
   const R g = std::sqrt(g2), eta2 = eta * eta;
-  const R ds = c + g, dp = std::fma(eta2, c, g);
+  const R ds = c + g, dp = fused(eta2, c, g);
   const R is = 1 / (ds * ds), ip = 1 / (dp * dp);
   const R rs = e * is;
   const R tilt =
-      c > R(0.7) ? std::fma(eta2, c * c, -(1 - c) * (1 + c)) : std::fma(eta2 + 1, c * c, R(-1));
+      c > R(0.7) ? fused(eta2, c * c, -(1 - c) * (1 + c)) : fused(eta2 + 1, c * c, R(-1));
   const R rp = e * tilt * ip;
   return {std::min(R(1), (rs * rs + rp * rp) / 2), std::min(R(1), 2 * c * g * (is + eta2 * ip))};
 }

@@ -84,7 +84,7 @@ inline Vec3<R> mirrored(Vec3<R> wo) {
 template <class R>
 inline Vec3<R> refracted(Vec3<R> wo, R eta) {
   // Away from grazing the sine is read off the tangential length, which is finer than the cosine.
-  const R g2 = std::abs(wo.z) > R(0.7) ? std::fma(eta, eta, -(wo.x * wo.x + wo.y * wo.y))
+  const R g2 = std::abs(wo.z) > R(0.7) ? fused(eta, eta, -(wo.x * wo.x + wo.y * wo.y))
                                        : refraction_g2(std::abs(wo.z), eta);
   const R g = std::sqrt(std::max(R(0), g2));
   return normalize(Vec3<R>{-wo.x, -wo.y, wo.z > 0 ? -g : g});
@@ -112,18 +112,40 @@ inline R relative_eta(R ior, Vec3<R> wo) {
   return wo.z > 0 ? n : 1 / n;
 }
 
-/// The deltas of a smooth interface: Fresnel's factor and the rest, tinted. `ior` is inside over
-/// outside, for each wavelength.
+/// Calls `body(j, repeated)` for each wavelength, `repeated` where its number is the one before.
+template <class R, class Body>
+inline void for_each_index(const R* p, Body body) {
+  for (int j = 0; j < kWavelengths; ++j) body(j, j > 0 && p[j] == p[j - 1]);
+}
+
+/// Fresnel's split of what comes along a direction of cosine `c` on the side of `wo`, for each
+/// wavelength; `ior` is inside over outside.
+template <class R>
+struct InterfaceSplits {
+  Spectrum<R> eta, reflected, transmitted;
+
+  InterfaceSplits(const R* ior, Vec3<R> wo, R c) {
+    c = limited(c, R(0), R(1));
+    for_each_index(ior, [&](int j, bool repeated) {
+      eta[j] = repeated ? eta[j - 1] : relative_eta(ior[j], wo);
+      const FresnelSplit<R> s = repeated ? FresnelSplit<R>{reflected[j - 1], transmitted[j - 1]}
+                                         : fresnel_split(c, eta[j]);
+      reflected[j] = s.reflected;
+      transmitted[j] = s.transmitted;
+    });
+  }
+};
+
+/// The deltas of a smooth interface: Fresnel's factor and the rest, tinted.
 template <class R>
 inline SpecularTerms<R> interface_terms(const R* ior, Vec3<R> wo, const Spectrum<R>& reflected,
                                         const Spectrum<R>& transmitted) {
-  const R c = limited(std::abs(wo.z), R(0), R(1));
+  const InterfaceSplits<R> s(ior, wo, std::abs(wo.z));
   SpecularTerms<R> t;
+  t.eta = s.eta;
+  t.reflect_weight = s.reflected * reflected;
+  t.transmit_weight = s.transmitted * transmitted;
   for (int j = 0; j < kWavelengths; ++j) {
-    t.eta[j] = relative_eta(ior[j], wo);
-    const FresnelSplit<R> s = fresnel_split(c, t.eta[j]);
-    t.reflect_weight[j] = s.reflected * reflected[j];
-    t.transmit_weight[j] = s.transmitted * transmitted[j];
     const R sum = t.reflect_weight[j] + t.transmit_weight[j];
     if (!(sum > 0)) continue;
     t.reflect_probability[j] = t.reflect_weight[j] / sum;
@@ -137,14 +159,9 @@ inline SpecularTerms<R> interface_terms(const R* ior, Vec3<R> wo, const Spectrum
 template <class R>
 inline Spectrum<R> interface_estimate(const R* ior, Vec3<R> wo, const Spectrum<R>& reflected,
                                       const Spectrum<R>& transmitted, bool rough) {
-  const R c = limited(std::abs(wo.z), R(0), R(1));
-  Spectrum<R> e;
-  for (int j = 0; j < kWavelengths; ++j) {
-    const FresnelSplit<R> s = fresnel_split(c, relative_eta(ior[j], wo));
-    e[j] = s.reflected * reflected[j] + s.transmitted * transmitted[j];
-    if (rough) e[j] = R(0.9) * e[j] + R(0.05) * (reflected[j] + transmitted[j]);
-  }
-  return e;
+  const InterfaceSplits<R> s(ior, wo, std::abs(wo.z));
+  const Spectrum<R> e = s.reflected * reflected + s.transmitted * transmitted;
+  return rough ? e * R(0.9) + (reflected + transmitted) * R(0.05) : e;
 }
 
 }  // namespace mms::materials

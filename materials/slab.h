@@ -65,9 +65,9 @@ struct Slab {
       sum.reflected += r * (1 + t * kept * through) / 2;
       sum.transmitted += t * through / 2;
     };
-    const R ds = c + g, dp = std::fma(eta2, c, g);
+    const R ds = c + g, dp = fused(eta2, c, g);
     add(e / (ds * ds), 4 * c * g / (ds * ds));
-    add(e * (std::fma(eta2 + 1, c * c, R(-1))) / (dp * dp), 4 * eta2 * c * g / (dp * dp));
+    add(e * (fused(eta2 + 1, c * c, R(-1))) / (dp * dp), 4 * eta2 * c * g / (dp * dp));
     return {std::min(sum.reflected, R(1)), std::min(sum.transmitted, R(1))};
   }
 };
