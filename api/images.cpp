@@ -14,8 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kModule = "mms_images.so";
-constexpr const char* kEntry = "mms_open_images";
-using Entry = vm::ImageSource* (*)(double megabytes);
 
 /// Where the module may be: beside the program or library that this is part of, or in the folder of
 /// libraries beside it.
@@ -35,28 +33,30 @@ std::vector<fs::path> places() {
   return all;
 }
 
-/// The module's entry, or null. The module stays loaded: pictures live as long as programs.
-Entry load_module() {
+}  // namespace
+
+void* image_module(const char* entry) {
   std::error_code error;
   for (const fs::path& place : places()) {
     if (!fs::exists(place, error)) continue;
     void* const module = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!module) continue;
-    if (void* const entry = dlsym(module, kEntry)) return reinterpret_cast<Entry>(entry);
+    if (void* const found = dlsym(module, entry)) return found;
   }
   return nullptr;
 }
 
-}  // namespace
+Error no_image_module(const std::string& file) {
+  return {file, "there is no OpenImageIO here",
+          std::string("install `") + kModule + "`, which is built with the renderer"};
+}
 
 Result<std::shared_ptr<const vm::Image>> ImageLibrary::open(const vm::ImageUse& use) {
   if (use.filter == vm::kCurveFilter) return materials::open_curve(use);
   if (!source_) {
-    const Entry entry = load_module();
-    if (!entry)
-      return Error{use.file, "cannot be read: there is no OpenImageIO here",
-                   std::string("install `") + kModule + "`, which is built with the renderer"};
-    source_.reset(entry(megabytes_));
+    void* const entry = image_module("mms_open_images");
+    if (!entry) return no_image_module(use.file);
+    source_.reset(reinterpret_cast<vm::ImageSource* (*)(double)>(entry)(megabytes_));
   }
   return source_->open(use);
 }

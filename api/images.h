@@ -15,6 +15,13 @@ namespace mms::api {
 /// Megabytes of decoded tiles that images may take together.
 inline constexpr double kImageMegabytes = 1024;
 
+/// An entry of the module `mms_images`, which reads and writes images through OpenImageIO; null
+/// where there is no such module. Once loaded it stays: what comes from it lives as long as
+/// programs.
+void* image_module(const char* entry);
+/// Says so, of `file`.
+Error no_image_module(const std::string& file);
+
 class ImageLibrary final : public vm::ImageSource {
  public:
   explicit ImageLibrary(double megabytes = kImageMegabytes) : megabytes_(megabytes) {}

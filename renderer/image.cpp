@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures that are read, through OpenImageIO.
+// Pictures that are read.
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "materials/colour.h"
-#include "renderer/picture.h"
-#include "renderer/scene.h"
+#include "renderer/openimageio.h"
 
 namespace mms::renderer {
-
 namespace {
 
 /// OpenImageIO may say the same in several lines.
@@ -56,10 +53,7 @@ Metadata texts(const OIIO::ImageSpec& spec) {
 
 }  // namespace
 
-Result<ReadPicture> read_picture(const std::string& path, const std::string& layer) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
-    return Error{path, "there is no such picture", "is it there?"};
+Result<ReadPicture> in_module::read(const std::string& path, const std::string& layer) {
   const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path);
   if (!in) return unreadable(path, OIIO::geterror());
   const OIIO::ImageSpec& spec = in->spec();
@@ -89,21 +83,6 @@ Result<ReadPicture> read_picture(const std::string& path, const std::string& lay
     if (variance >= 0) picture.variance.push_back(p[variance]);
   }
   return picture;
-}
-
-Result<EnvironmentImage> load_environment(const std::string& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
-    return Error{path, "no picture file `" + path + "`", "paths are relative to the scene file",
-                 Error::Cause::File};
-  Result<ReadPicture> picture = read_picture(path);
-  if (!picture) return picture.error();
-  for (std::array<float, 3>& c : picture->rgb)
-    for (float& v : c) {
-      if (!std::isfinite(v)) return Error{path, "a pixel of the picture is not finite", ""};
-      v = std::max(0.0f, v);
-    }
-  return EnvironmentImage{path, picture->width, picture->height, std::move(picture->rgb)};
 }
 
 }  // namespace mms::renderer

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The environments that a scene file can write, and those that have a name: docs/scene.md.
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "renderer/environments.h"
+#include "renderer/picture.h"
 #include "renderer/scene_node.h"
 #include "renderer/sky.h"
 
@@ -65,6 +68,21 @@ Environment environment_named(const std::string& name) {
   Result<EnvironmentImage> image = load_environment(name);
   if (!image) throw Mistake{image.error()};
   return {{1, 1, 1}, std::move(*image)};
+}
+
+Result<EnvironmentImage> load_environment(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    return Error{path, "no picture file `" + path + "`", "paths are relative to the scene file",
+                 Error::Cause::File};
+  Result<ReadPicture> picture = read_picture(path);
+  if (!picture) return picture.error();
+  for (std::array<float, 3>& c : picture->rgb)
+    for (float& v : c) {
+      if (!std::isfinite(v)) return Error{path, "a pixel of the picture is not finite", ""};
+      v = std::max(0.0f, v);
+    }
+  return EnvironmentImage{path, picture->width, picture->height, std::move(picture->rgb)};
 }
 
 }  // namespace mms::renderer

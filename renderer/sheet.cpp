@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "renderer/sheet.h"
-
+// Contact sheets, as OpenImageIO draws them.
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 
 #include <algorithm>
 #include <array>
+
+#include "renderer/openimageio.h"
 
 namespace mms::renderer {
 namespace {
@@ -37,7 +38,7 @@ int fitting_size(const std::vector<SheetTile>& tiles, const std::string& font, i
 
 }  // namespace
 
-Sheet make_sheet(const std::vector<SheetTile>& tiles, int width, int height, int columns) {
+Sheet in_module::sheet(const std::vector<SheetTile>& tiles, int width, int height, int columns) {
   const int size = std::clamp(width / 13, 9, 28), strip = size * 7 / 4;
   const int across = width + kMargin, down = height + strip + kMargin;
   const int rows = (int(tiles.size()) + columns - 1) / columns;

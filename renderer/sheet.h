@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/result.h"
+
 namespace mms::renderer {
 
 struct SheetTile {
@@ -21,7 +23,7 @@ struct Sheet {
 };
 
 /// `tiles` of width x height pixels in rows of `columns`; each caption stands below its tile, all
-/// of one size that fits.
-Sheet make_sheet(const std::vector<SheetTile>& tiles, int width, int height, int columns);
+/// of one size that fits. Error: OpenImageIO, which draws the captions, is not there.
+Result<Sheet> make_sheet(const std::vector<SheetTile>& tiles, int width, int height, int columns);
 
 }  // namespace mms::renderer

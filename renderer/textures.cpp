@@ -354,7 +354,3 @@ std::unique_ptr<vm::ImageSource> open_textures(double megabytes) {
 }
 
 }  // namespace mms::renderer
-
-mms::vm::ImageSource* mms_open_images(double megabytes) {
-  return mms::renderer::open_textures(megabytes).release();
-}

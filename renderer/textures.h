@@ -16,6 +16,3 @@ namespace mms::renderer {
 std::unique_ptr<vm::ImageSource> open_textures(double megabytes);
 
 }  // namespace mms::renderer
-
-/// What the module `mms_images` is loaded for. The caller owns what it gets.
-extern "C" mms::vm::ImageSource* mms_open_images(double megabytes);

@@ -160,10 +160,11 @@ Exit render_sheet(const RenderRequest& request) {
   const bool rows = *sweep && (*sweep)->steps <= kMostColumns;
   const int columns =
       rows ? (*sweep)->steps : std::min(kMostColumns, int(std::ceil(std::sqrt(count))));
-  const renderer::Sheet sheet = renderer::make_sheet(tiles, request.width, request.height, columns);
-  const auto written = renderer::write_png(path, sheet.width, sheet.height, sheet.pixels);
+  const auto sheet = renderer::make_sheet(tiles, request.width, request.height, columns);
+  if (!sheet) return fail(Exit::File, sheet.error(), request);
+  const auto written = renderer::write_png(path, sheet->width, sheet->height, sheet->pixels);
   if (!written) return fail(Exit::File, written.error(), request);
-  if (!sheet.captions && !request.quiet)
+  if (!sheet->captions && !request.quiet)
     fmt::print(stderr, "note: {}: no captions, since there is no font: install fonts-dejavu-core\n",
                path);
   if (cut)

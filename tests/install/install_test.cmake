@@ -59,6 +59,12 @@ foreach(foreign embree OpenImageIO assimp)
     message(FATAL_ERROR "libmms.so needs ${foreign}")
   endif()
 endforeach()
+if(EXISTS ${prefix}/bin/mms-render)  # it starts quickly
+  run(readelf -d ${prefix}/bin/mms-render)
+  if(out MATCHES "NEEDED[^\n]*OpenImageIO")
+    message(FATAL_ERROR "mms-render loads OpenImageIO before it is needed")
+  endif()
+endif()
 
 set(flags "")
 if(SANITIZE)
