@@ -103,6 +103,8 @@ std::optional<Error> read_numbers(RenderRequest& r) {
 
 Exit render(RenderRequest request) {
   if (const auto error = read_numbers(request)) return fail(Exit::Usage, *error, request);
+  // A picture that is watched is another one each time; else a script is one, however many show it.
+  if (!request.watch) request.said = std::make_shared<std::set<std::string>>();
   return render_pictures(request);
 }
 

@@ -15,14 +15,27 @@
 
 namespace mms::tools {
 
-/// A script, linked and bound to a scene.
-struct RenderJob {
+/// A script, linked.
+struct RenderScript {
   std::shared_ptr<const Compiled> linked;
-  renderer::Scene scene;
-  std::uint64_t script = 0;  ///< hash of the linked program, wherever its files are
+  std::string surface;     ///< that the test object wears; empty: whatever the scene says
+  std::uint64_t hash = 0;  ///< of the linked program, wherever its files are
 };
 
-/// Compiles `file` and loads the scene; empty after saying what is wrong with them.
+/// The same, bound to a scene.
+struct RenderJob : RenderScript {
+  renderer::Scene scene;
+};
+
+/// Compiles `file`; empty after saying what is wrong with it.
+std::optional<RenderScript> compile_script(const RenderRequest& request, const std::string& file,
+                                           Exit& exit);
+
+/// Loads the scene, or a turn of it; empty after saying what is wrong.
+std::optional<RenderJob> set_scene(const RenderRequest& request, const RenderScript& script,
+                                   Exit& exit);
+
+/// Both.
 std::optional<RenderJob> prepare(const RenderRequest& request, const std::string& file, Exit& exit);
 
 /// What the command asked for; Ctrl-C stops it.

@@ -43,7 +43,7 @@ std::string choose_surface(const RenderRequest& request, const std::string& file
   if (names.empty()) return "";
   for (const std::string& name : names)
     if (name == stem(file)) return name;
-  if (names.size() > 1 && !request.quiet)
+  if (names.size() > 1 && !request.quiet && is_news("surfaces of " + file, request))
     fmt::print(stderr, "note: {}: {} surfaces; rendering `{}` (--surface takes another: {})\n",
                file, names.size(), names[0], fmt::join(names.begin() + 1, names.end(), ", "));
   return names[0];
@@ -153,23 +153,36 @@ void catch_interrupts() {
   std::signal(SIGTERM, on_interrupt);  // what batch systems send
 }
 
-std::optional<RenderJob> prepare(const RenderRequest& request, const std::string& file,
-                                 Exit& exit) {
-  const auto give_up = [&](Exit code, const Error& error) {
-    exit = fail(code, error, request);
-    return std::nullopt;
-  };
+std::optional<RenderScript> compile_script(const RenderRequest& request, const std::string& file,
+                                           Exit& exit) {
   auto linked = compile_files({file}, request, exit);
   if (!linked) return {};
-  if (linked->program.descriptors.empty())
-    return give_up(Exit::Script, {file, "nothing to render: no surface and no volume",
-                                  "add one: surface \"plain\" bsdf = matte(0.5); end"});
+  if (linked->program.descriptors.empty()) {
+    exit = fail(Exit::Script,
+                {file, "nothing to render: no surface and no volume",
+                 "add one: surface \"plain\" bsdf = matte(0.5); end"},
+                request);
+    return {};
+  }
   auto program = std::make_shared<const Compiled>(std::move(*linked));
-  const renderer::SceneSource source{request.scene, choose_surface(request, file, program->program),
-                                     request.volume, request.turn, request.environment};
-  const auto scene = renderer::load_scene(program->program, source);
-  if (!scene) return give_up(scene_exit(scene.error().cause), scene.error());
-  return RenderJob{program, *scene, script_hash(program->program)};
+  const vm::Program& p = program->program;
+  return RenderScript{program, choose_surface(request, file, p), script_hash(p)};
+}
+
+std::optional<RenderJob> set_scene(const RenderRequest& request, const RenderScript& script,
+                                   Exit& exit) {
+  const renderer::SceneSource source{request.scene, script.surface, request.volume, request.turn,
+                                     request.environment};
+  auto scene = renderer::load_scene(script.linked->program, source);
+  if (scene) return RenderJob{script, std::move(*scene)};
+  exit = fail(scene_exit(scene.error().cause), scene.error(), request);
+  return {};
+}
+
+std::optional<RenderJob> prepare(const RenderRequest& request, const std::string& file,
+                                 Exit& exit) {
+  const auto script = compile_script(request, file, exit);
+  return script ? set_scene(request, *script, exit) : std::nullopt;
 }
 
 renderer::RenderOptions render_options(const RenderRequest& request) {

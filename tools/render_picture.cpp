@@ -141,12 +141,13 @@ Result<renderer::Done> write_result(const RenderRequest& request, const std::str
   return written;
 }
 
-Exit render_one(RenderRequest request, const std::string& file, const std::string& path) {
+Exit render_one(const RenderRequest& request, const RenderScript& script, const std::string& file,
+                const std::string& path) {
   Exit exit = Exit::Ok;
-  const auto job = prepare(request, file, exit);
+  const auto job = set_scene(request, script, exit);
   if (!job) return exit;
   renderer::RenderOptions options = render_options(request);
-  const renderer::FilmKey key = renderer::film_key(job->scene, options, job->script);
+  const renderer::FilmKey key = renderer::film_key(job->scene, options, job->hash);
   options.layers = path.ends_with(".exr") || path.ends_with(renderer::kFilmExtension);
   const bool progress = !request.quiet && isatty(STDERR_FILENO);
   Checkpoint checkpoint(checkpoint_path(path), key, progress);
@@ -172,7 +173,8 @@ Exit render_one(RenderRequest request, const std::string& file, const std::strin
 }
 
 /// One turn of the test object: `NAME.000.png` and so on.
-Exit render_turn(RenderRequest request, const std::string& file, const std::string& path) {
+Exit render_turn(RenderRequest request, const RenderScript& script, const std::string& file,
+                 const std::string& path) {
   const fs::path name(path);
   Exit worst = Exit::Ok;
   for (int i = 0; i < request.frames; ++i) {
@@ -180,7 +182,7 @@ Exit render_turn(RenderRequest request, const std::string& file, const std::stri
     request.turn = 2 * std::numbers::pi * i / request.frames;
     fs::path frame = name;
     frame.replace_extension(fmt::format("{:03}{}", i, name.extension().string()));
-    worst = std::max(worst, render_one(request, file, frame.string()));
+    worst = std::max(worst, render_one(request, script, file, frame.string()));
   }
   return worst;
 }
@@ -249,8 +251,11 @@ Exit render_pictures(const RenderRequest& request) {
   Exit worst = Exit::Ok;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (interrupted()) return Exit::Interrupted;
-    const auto render = request.frames > 0 ? render_turn : render_one;
-    worst = std::max(worst, render(request, request.files[i], paths[i]));
+    Exit exit = Exit::Ok;
+    if (const auto script = compile_script(request, request.files[i], exit))
+      exit = request.frames > 0 ? render_turn(request, *script, request.files[i], paths[i])
+                                : render_one(request, *script, request.files[i], paths[i]);
+    worst = std::max(worst, exit);
   }
   return worst;
 }

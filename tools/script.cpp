@@ -86,6 +86,13 @@ lang::Diagnostic with_help(lang::Diagnostic d) {
   return d;
 }
 
+/// What a message is about: of one place each is said once, whatever numbers it has.
+std::string subject(const lang::Diagnostic& d) {
+  const std::string place =
+      d.span ? fmt::format("{}:{}:{}", d.span.source->name, d.span.begin, d.span.end) : d.text;
+  return fmt::format("{} {}", lang::info(d.id).code, place);
+}
+
 struct Settings {
   std::vector<std::pair<std::string, std::string>> plain, variables;  ///< `name`, `$name`
 };
@@ -213,10 +220,15 @@ std::optional<lang::Linked> load(const std::vector<lang::SourcePtr>& sources,
 
 }  // namespace
 
+bool is_news(const std::string& subject, const ScriptOptions& options) {
+  return !options.said || options.said->insert(subject).second;
+}
+
 void print(const lang::Diagnostics& diagnostics, const ScriptOptions& options) {
   const bool colour = colours(options);
   const char* separator = "";
   for (const lang::Diagnostic& d : diagnostics.all()) {
+    if (!is_news(subject(d), options)) continue;
     if (options.json()) {
       fmt::print("{}\n", lang::render_json(d));
       continue;

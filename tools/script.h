@@ -4,7 +4,9 @@
 /// \file
 /// What the verbs share: options about scripts, from files to a linked program, and messages.
 
+#include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,7 +28,9 @@ struct ScriptOptions {
   std::string missing = "error";  ///< images that cannot be read: `error` or `magenta`
   std::string image_memory;       ///< megabytes of `--image-memory`; empty: the default
   lang::LookedFor looked_for;     ///< is told of every file that the scripts look for
-  bool at_points = false;         ///< the verb evaluates points, so `--set` may set `$variables`
+  /// What messages were about, if each is to be said once in all compilations; null: in each.
+  std::shared_ptr<std::set<std::string>> said;
+  bool at_points = false;  ///< the verb evaluates points, so `--set` may set `$variables`
 
   bool json() const { return format == "json"; }
 };
@@ -45,7 +49,10 @@ bool colours(const ScriptOptions& options);
 void print_error(const Error& error, bool colour = false);
 Exit fail(Exit code, const Error& error, const ScriptOptions& options);
 
-/// Every message: to standard error, or as JSON lines to standard output where asked.
+/// Whether nothing about `subject` was said yet; from now on it was.
+bool is_news(const std::string& subject, const ScriptOptions& options);
+
+/// Every message that is news: to standard error, or as JSON lines to standard output where asked.
 void print(const lang::Diagnostics& diagnostics, const ScriptOptions& options);
 
 /// One `--set name=value` that no param of the scripts took: `$name` is to have that value.

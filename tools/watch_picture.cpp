@@ -139,7 +139,7 @@ class Version {
       return;
     }
     if (r->report.stopped && !interrupted()) return;  // another version is there
-    const renderer::FilmKey key = renderer::film_key(job_.scene, options_, job_.script);
+    const renderer::FilmKey key = renderer::film_key(job_.scene, options_, job_.hash);
     write({r->film, r->layers.get(), metadata(path_, key, *r->sums)});
     print_report(request_, file_, path_, r->report);
   }

@@ -85,6 +85,44 @@ TEST_CASE("a sweep shows a param at its values, in a row") {
   CHECK(folder.mms("render a.mms --sweep shade=0:1:2 --watch" + options).exit == 2);
 }
 
+TEST_CASE("what there is to say of a script is said once, however many pictures show it") {
+  const Folder folder;
+  // The second warning is of one value only, the third of several, each with another number.
+  folder.write("s.mms",
+               "param real shade = 0.3;\nparam real other = 1;\n"
+               "surface \"a\" bsdf = matte(0.5 / (shade - 1)); end\n"
+               "surface \"b\" bsdf = matte(2 + shade); end\n");
+  const std::string options = " --size 8x8 --samples 1 ";
+  const auto times = [](const Outcome& run, const std::string& part) {
+    int count = 0;
+    for (std::size_t at = run.err.find(part); at != std::string::npos;
+         at = run.err.find(part, at + 1))
+      ++count;
+    return count;
+  };
+  const Outcome sweep = folder.mms("render s.mms --sweep shade=0:1:3 -o s.png" + options);
+  INFO(sweep.err);
+  CHECK(sweep.exit == 0);
+  CHECK(times(sweep, "param `other` is never used") == 1);
+  CHECK(times(sweep, "division by zero") == 1);
+  CHECK(times(sweep, "weights of this material add up to 2 ") == 1);
+  CHECK(times(sweep, "weights of this material") == 2);  // of `a` too, where it is infinite
+  CHECK(times(sweep, "rendering `a`") == 1);
+  for (const char* args :
+       {"s.mms s.mms -o t.png", "s.mms --turntable 3 -o t.png", "- --turntable 3 -o t.png"}) {
+    CAPTURE(args);
+    const Outcome run = folder.mms("render " + std::string(args) + options, folder.read("s.mms"));
+    INFO(run.err);
+    CHECK(run.exit == 0);
+    CHECK(times(run, "is never used") == 1);
+    CHECK(times(run, "weights of this material") == 1);
+    CHECK(times(run, "rendering `a`") == 1);
+  }
+  const Outcome json =
+      folder.mms("render s.mms --sweep shade=0:1:3 -o s.png --format=json" + options);
+  CHECK(times({0, "", json.out}, "W0404") == 1);
+}
+
 TEST_CASE("a sheet that is stopped says how much of it is there, and none goes on from before") {
   const Folder folder;
   folder.write("s.mms", "param real shade = 0.3;\nsurface \"s\" bsdf = matte(shade); end\n");
