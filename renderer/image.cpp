@@ -11,6 +11,7 @@
 
 #include "materials/colour.h"
 #include "renderer/openimageio.h"
+#include "renderer/png_fault.h"
 
 namespace mms::renderer {
 namespace {
@@ -54,6 +55,7 @@ Metadata texts(const OIIO::ImageSpec& spec) {
 }  // namespace
 
 Result<ReadPicture> in_module::read(const std::string& path, const std::string& layer) {
+  if (const std::string fault = png_fault(path); !fault.empty()) return unreadable(path, fault);
   const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path);
   if (!in) return unreadable(path, OIIO::geterror());
   const OIIO::ImageSpec& spec = in->spec();

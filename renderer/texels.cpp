@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "materials/colour.h"
+#include "renderer/png_fault.h"
 
 namespace mms::renderer {
 namespace {
@@ -191,6 +192,8 @@ std::string one_line(std::string text) {
 
 Result<TexelFile> inspect_texels(const std::string& path, const std::string& space) {
   constexpr const char* kBroken = "write the file again; `oiiotool --info -v FILE` looks at it too";
+  if (const std::string fault = png_fault(path); !fault.empty())
+    return Error{path, "is broken: " + fault, kBroken};
   const auto file = open_file(path);
   if (!file) return Error{path, "cannot be read: " + one_line(OIIO::geterror()), kBroken};
   const OIIO::ImageSpec spec = file->spec();

@@ -117,6 +117,43 @@ TEST_CASE("images reach eval, bounds, compile, deps and render") {
   CHECK(contains(broken.err, "the image `p.pgm` is broken"));
 }
 
+TEST_CASE("a PNG that is cut off or damaged is told once, wherever pictures are read") {
+  const Folder folder;
+  folder.write("s.mms", "surface s bsdf = matte(image(\"p.png\", $uv)); end\n");
+  folder.write("plain.mms", "surface s bsdf = matte(0.5); end\n");
+  const std::string whole = mms::cli::project_text("examples/star_tile.png");
+  REQUIRE(whole.size() > 1000);
+  std::string flipped = whole;
+  flipped[1000] = char(flipped[1000] ^ 1);
+  std::string renamed = whole;
+  renamed[12] = 'j';  // the first chunk is no longer the header
+  const auto cut = [&](std::size_t at) { return whole.substr(0, at); };
+  // 8 bytes of signature; then chunks, 12 bytes and what they hold each, the first with 13, the
+  // last with nothing.
+  for (const std::string& text :
+       {cut(8), cut(20), cut(33), cut(1000), cut(whole.size() - 12), flipped, renamed}) {
+    CAPTURE(text.size());
+    folder.write("p.png", text);
+    const Outcome check = folder.mms("check s.mms");
+    CHECK(check.exit == 1);
+    CHECK(check.err.starts_with("error[E0312]: the image `p.png` is broken: "));
+    CHECK(contains(check.err, "write the file again"));
+    const Outcome compare = folder.mms("compare p.png p.png");
+    CHECK(compare.exit == 3);
+    CHECK(compare.err.starts_with("error: p.png: cannot read the picture: "));
+  }
+  CHECK(folder.mms("render plain.mms -o o.png --environment p.png")
+            .err.starts_with("error: p.png: cannot read the picture: "));
+  folder.write("p.png", cut(1000));
+  CHECK(contains(folder.mms("check s.mms").err,
+                 "the image `p.png` is broken: it is cut off within its chunk `IDAT`\n"));
+  folder.write("p.png", flipped);
+  CHECK(contains(folder.mms("compare p.png p.png").err,
+                 "cannot read the picture: its chunk `IDAT` is damaged\n"));
+  folder.write("p.png", whole);
+  CHECK(folder.mms("check s.mms").err == "");
+}
+
 TEST_CASE("a lamp's photometric file lights a scene, and a damaged one is told with its line") {
   const Folder folder;
   folder.write("s.mms",
