@@ -197,7 +197,7 @@ std::optional<lang::Linked> link(const std::vector<lang::SourcePtr>& sources,
 std::optional<lang::Linked> load(const std::vector<lang::SourcePtr>& sources,
                                  const Settings& settings, const ScriptOptions& options,
                                  vm::ImageSource& images, Exit& exit) {
-  auto loaded = load_stored(sources, images, options.missing == "magenta");
+  auto loaded = load_stored(sources, options, images);
   if (!loaded) {
     exit = fail(sources.size() > 1 ? Exit::Usage : Exit::File, loaded.error(), options);
     return std::nullopt;

@@ -21,7 +21,7 @@ bool any_stored(const std::vector<lang::SourcePtr>& sources) {
 }
 
 Result<lang::Linked> load_stored(const std::vector<lang::SourcePtr>& sources,
-                                 vm::ImageSource& images, bool missing_are_magenta) {
+                                 const ScriptOptions& options, vm::ImageSource& images) {
   const lang::Source& file = **std::find_if(sources.begin(), sources.end(), is_stored);
   if (sources.size() > 1)
     return Error{file.name, "is a compiled program, which cannot be linked with anything more",
@@ -33,10 +33,11 @@ Result<lang::Linked> load_stored(const std::vector<lang::SourcePtr>& sources,
     return error;
   }
   for (vm::ProgramImage& image : loaded->program.images) {
+    if (options.looked_for) options.looked_for(image.use.file);
     auto opened = images.open(image.use);
     if (opened)
       image.image = *opened;
-    else if (!missing_are_magenta)
+    else if (options.missing != "magenta")
       return Error{file.name, "the image `" + image.use.file + "` " + opened.error().what,
                    "put it there, or compile the script again; --missing=magenta goes on without"};
   }

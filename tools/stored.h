@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "lang/link.h"
+#include "tools/script.h"
 
 namespace mms::tools {
 
@@ -16,8 +17,9 @@ bool any_stored(const std::vector<lang::SourcePtr>& sources);
 
 /// The program in the only source, its images opened. Errors: there is another source too, it is
 /// damaged, or does not fit this build; an image cannot be read, unless those are to be magenta.
+/// Of `options` the images' count, and who is told of them.
 /// \pre `any_stored(sources)`
 Result<lang::Linked> load_stored(const std::vector<lang::SourcePtr>& sources,
-                                 vm::ImageSource& images, bool missing_are_magenta);
+                                 const ScriptOptions& options, vm::ImageSource& images);
 
 }  // namespace mms::tools

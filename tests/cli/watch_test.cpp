@@ -109,6 +109,26 @@ end_as_another image
   CHECK(run.out == "ended 130\n");
 }
 
+TEST_CASE("a watched compiled program waits for its image, and follows it") {
+  const Folder folder;
+  folder.write("s.mms", R"(surface "s" bsdf = matte(image("p.ppm", $uv)); end)");
+  const Outcome run = folder.bash(kWaiting + R"BASH(
+printf 'P6 1 1 255\n@@@' >p.ppm
+mms compile s.mms -o s.mmsc && rm p.ppm
+mms-render render s.mmsc --size 24x24 --samples 3 --watch -o p.png >log 2>&1 & child=$!
+until_line 1 'put it there'
+printf 'P6 1 1 255\n@@@' >new; mv new p.ppm
+until_line 1 'estimated error'
+cp p.png before.png
+printf 'P6 1 1 255\nccc' >new; mv new p.ppm
+until_line 2 'estimated error'
+end_as_another image
+)BASH");
+  INFO(run.out, run.err);
+  CHECK(run.exit == 0);
+  CHECK(run.out == "ended 130\n");
+}
+
 TEST_CASE("a watched picture follows the environment that it was given") {
   const Folder folder;
   folder.write("s.mms", "surface s bsdf = matte(0.5); end\n");
