@@ -56,7 +56,9 @@ Job::Job(const World& world, const RenderOptions& options)
   for (int t = 0; t < int(film_->done.size()); ++t) {
     SampleSet all = film_->done[t];
     all.add({std::uint32_t(options.first_sample), std::uint32_t(options.samples)});
-    paths_asked_ += (all.count() - film_->done[t].count()) * film_->tile(t).area();
+    const std::uint64_t there = film_->done[t].count(), area = film_->tile(t).area();
+    paths_before_ += there * area;
+    paths_asked_ += (all.count() - there) * area;
   }
   round_end_ = options.error > 0 ? 0 : chunks_;
 }
@@ -238,14 +240,15 @@ void Job::watch() {
 
 void Job::show_progress() {
   const double now = seconds();
-  double fraction = paths_asked_ > 0 ? double(paths_done_.load()) / double(paths_asked_) : 1;
+  const std::uint64_t done = paths_done_;
+  const auto samples =
+      int((paths_before_ + done) / (std::uint64_t(options_.width) * options_.height));
+  double fraction = paths_asked_ > 0 ? double(done) / double(paths_asked_) : 1;
   if (now - error_shown_at_ >= kSecondsOfError) {
     const std::scoped_lock lock(film_lock_);
     shown_error_ = ErrorEstimate(film_->sums, film_->complete()).rmse();
     error_shown_at_ = seconds();
   }
-  const int samples = options_.samples - options_.first_sample;
-  const int samples_done = int(fraction * samples);
   double left = fraction > 0 ? now * (1 - fraction) / fraction : 0;
   // Error falls at least like 1 / sqrt(samples), so no later than this.
   if (options_.error > 0 && shown_error_ > 0) {
@@ -255,7 +258,7 @@ void Job::show_progress() {
   if (options_.seconds > 0) left = std::min(left, std::max(0.0, options_.seconds - now));
   if (left + now > 0 && (options_.error > 0 || options_.seconds > 0))
     fraction = std::max(fraction, now / (now + left));
-  options_.progress({fraction, samples_done, now, left, shown_error_});
+  options_.progress({fraction, samples, now, left, shown_error_});
 }
 
 /// Hands a copy out, so that threads go on while it is written.

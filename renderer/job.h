@@ -68,7 +68,7 @@ class Job {
   int first_pass_ = 0;
 
   std::atomic<std::uint64_t> paths_done_{0}, fault_lanes_{0};
-  std::uint64_t paths_asked_ = 0;
+  std::uint64_t paths_asked_ = 0, paths_before_ = 0;
   std::atomic<bool> too_many_faults_{false}, good_{false};
   std::mutex report_lock_;
   std::condition_variable finished_;

@@ -57,7 +57,7 @@ Result<Scene> load_scene(const vm::Program& program, const SceneSource& source);
 
 struct Progress {
   double fraction = 0;      ///< of the samples asked for, in [0, 1]
-  int samples = 0;          ///< samples a pixel done everywhere
+  int samples = 0;          ///< of a pixel that are there, with those gone on from; their mean
   double seconds = 0;       ///< since rendering began
   double seconds_left = 0;  ///< estimated
   double error = 0;         ///< as Report::rmse; 0 where it is not known yet

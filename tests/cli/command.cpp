@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/cli/command.h"
 
+#include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -81,6 +83,33 @@ Outcome Folder::bash(const std::string& script) const {
   outcome.exit = exit_code(std::system(line.c_str()));
   outcome.out = slurp(logs + "/out");
   outcome.err = slurp(logs + "/err");
+  return outcome;
+}
+
+Outcome Folder::killed_on_terminal(const std::string& args, int lines, int microseconds) const {
+  const std::string line = "cd '" + root_ + "' && exec '" MMS_COMMAND "' " + args;
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    execl("/bin/sh", "sh", "-c", line.c_str(), static_cast<char*>(nullptr));
+    _exit(127);
+  }
+  Outcome outcome;
+  const auto read_some = [&] {
+    char bytes[4096];
+    const ssize_t n = ::read(terminal, bytes, sizeof bytes);
+    if (n > 0) outcome.out.append(bytes, std::size_t(n));
+    return n > 0;  // the terminal of a process that has ended has an error behind its last byte
+  };
+  while (std::count(outcome.out.begin(), outcome.out.end(), '\r') < lines && read_some()) continue;
+  usleep(useconds_t(microseconds));
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  while (read_some()) continue;
+  close(terminal);
+  outcome.exit = exit_code(status);
   return outcome;
 }
 

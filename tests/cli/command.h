@@ -41,6 +41,10 @@ class Folder {
   /// A bash script here, in which `mms` is the command.
   Outcome bash(const std::string& script) const;
 
+  /// `mms ARGS` here on a terminal, killed so long after it has shown its progress `lines` times.
+  /// What it showed is `out`.
+  Outcome killed_on_terminal(const std::string& args, int lines, int microseconds) const;
+
   /// `mms render - ARGS` here, sent SIGINT once it has begun to read `script`.
   Outcome interrupted_render(const std::string& args, const std::string& script) const;
 
