@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -230,6 +231,9 @@ Result<Done> save_film(const std::string& path, const FilmKey& key, const Partia
 }
 
 Result<StoredFilm> load_film(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    return Error{path, "is a folder, not a film", "name a file in it"};
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   if (!file && bytes.empty()) return Error{path, "cannot be read", "is it there?"};

@@ -125,7 +125,8 @@ Exit run_command(int argc, const char* const* argv) {
     if (e.get_exit_code() != 0) return usage_error(app, e, argc > 1 ? argv[1] : "");
     app.exit(e);  // prints the help or the version
   }
-  return std::fflush(stdout) == 0 ? exit : output_failed();
+  // An error of an earlier flush leaves nothing to write, but is remembered.
+  return std::fflush(stdout) == 0 && !std::ferror(stdout) ? exit : output_failed();
 }
 
 std::string command_help() {

@@ -96,7 +96,7 @@ std::optional<Error> read_numbers(RenderRequest& r) {
                       "how many pictures make one turn, as in --turntable 48"))
       return e;
   if ((!r.sweep.empty()) + (r.frames > 0) + r.watch > 1)
-    return Error{"--sweep", "one of --sweep, --turntable and --watch at a time",
+    return Error{"mms render", "one of --sweep, --turntable and --watch at a time",
                  "leave the others out"};
   return read_picture_options(r);
 }

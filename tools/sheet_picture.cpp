@@ -30,15 +30,16 @@ struct Sweep {
   int steps = 1;
 
   std::string value(int i) const {
-    return fmt::format("{:.6g}", low + (high - low) * i / std::max(1, steps - 1));
+    return fmt::format("{:.6g}", std::lerp(low, high, double(i) / std::max(1, steps - 1)));
   }
 };
 
 /// `roughness=0:1:6`; nothing where no sweep is asked for.
 Result<std::optional<Sweep>> read_sweep(const std::string& text) {
   if (text.empty()) return std::optional<Sweep>();
-  const Error wrong{"--sweep", fmt::format("`{}` is no sweep", text),
-                    "a param, its first and last value and how many, as in roughness=0:1:6"};
+  const Error wrong{
+      "--sweep", fmt::format("`{}` is no sweep", text),
+      "a param, its first and last value and how many, 2 to 400, as in roughness=0:1:6"};
   const std::size_t equals = text.find('='), first = text.find(':'), last = text.rfind(':');
   if (equals == 0 || equals == std::string::npos || first == last || first < equals) return wrong;
   const auto low = number<double>(text.substr(equals + 1, first - equals - 1));

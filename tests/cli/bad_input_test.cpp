@@ -285,6 +285,22 @@ TEST_CASE("pictures and meshes that are missing or broken") {
   CHECK_FALSE(folder.has("out.png"));
 }
 
+TEST_CASE("a report that cannot be printed") {
+  const Folder folder;
+  folder.write("good.mms", kGood);
+  check_message(folder.bash("mms render good.mms -o a.png --size 8x8 --samples 1 >/dev/full"), 3,
+                "standard output", "cannot be written");
+}
+
+TEST_CASE("a folder in place of a film") {
+  const Folder folder;
+  folder.write("good.mms", kGood);
+  std::filesystem::create_directory(folder.path("a.png.film"));
+  check_message(folder.mms("merge a.png.film -o a.png"), 3, "a.png.film", "is a folder");
+  check_message(folder.mms("render good.mms -o a.png --resume" + std::string(kSmall)), 3,
+                "a.png.film", "is a folder");
+}
+
 TEST_CASE("endless recursion, rendered") {
   check_render("-o out.png" + std::string(kSmall), 4, "good.mms:2", "",
                "real f(real x) =\n  f(x + 1);\n"
