@@ -12,6 +12,7 @@
 #include "materials/colour.h"
 #include "renderer/compare.h"
 #include "tools/output.h"
+#include "tools/overwrite.h"
 
 namespace mms::tools {
 
@@ -104,9 +105,13 @@ void print_report(const CompareRequest& request, const Comparison& c, bool above
 }  // namespace
 
 Exit compare_pictures(const CompareRequest& request) {
-  if (!request.output.empty())
+  if (!request.output.empty()) {
     if (const auto ok = renderer::check_writable(request.output); !ok)
       return fail(Exit::File, ok.error(), request);
+    const std::string inputs[] = {request.picture, request.reference};
+    if (const auto error = overwrites(request.output, inputs))
+      return fail(Exit::Usage, *error, request);
+  }
   const auto part = read_crop(request.crop);
   if (!part) return fail(Exit::Usage, part.error(), request);
   const auto a = renderer::read_picture(request.picture, request.layer);

@@ -5,6 +5,7 @@
 #include "api/library.h"
 #include "base/file.h"
 #include "tools/commands.h"
+#include "tools/overwrite.h"
 #include "tools/script.h"
 #include "vm/serialise.h"
 
@@ -20,6 +21,10 @@ Exit compile_to_file(const CompileOptions& options) {
   Exit exit = Exit::Ok;
   const auto linked = compile_files(options.files, options, exit);
   if (!linked) return exit;
+  std::vector<std::string> inputs = options.files;
+  inputs.insert(inputs.end(), linked->dependencies.begin(), linked->dependencies.end());
+  if (const auto error = overwrites(options.output, inputs))
+    return fail(Exit::Usage, *error, options);
   const std::vector<std::byte> bytes = vm::save(
       {linked->program, linked->params, linked->dependencies}, api::standard_library().builtins);
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

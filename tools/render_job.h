@@ -31,6 +31,10 @@ struct RenderJob : RenderScript {
 std::optional<RenderScript> compile_script(const RenderRequest& request, const std::string& file,
                                            Exit& exit);
 
+/// The files that a picture of `script` is made from, as far as they are named: not those of a
+/// scene.
+std::vector<std::string> inputs_of(const RenderRequest& request, const RenderScript& script);
+
 /// Loads the scene, or a turn of it; empty after saying what is wrong.
 std::optional<RenderJob> set_scene(const RenderRequest& request, const RenderScript& script,
                                    Exit& exit);

@@ -169,6 +169,14 @@ std::optional<RenderScript> compile_script(const RenderRequest& request, const s
   return RenderScript{program, choose_surface(request, file, p), script_hash(p)};
 }
 
+std::vector<std::string> inputs_of(const RenderRequest& request, const RenderScript& script) {
+  std::vector<std::string> all = request.files;
+  all.insert(all.end(), script.linked->dependencies.begin(), script.linked->dependencies.end());
+  all.push_back(request.scene);
+  all.push_back(request.environment);
+  return all;
+}
+
 std::optional<RenderJob> set_scene(const RenderRequest& request, const RenderScript& script,
                                    Exit& exit) {
   const renderer::SceneSource source{request.scene, script.surface, request.volume, request.turn,

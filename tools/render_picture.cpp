@@ -15,6 +15,7 @@
 #include "renderer/picture.h"
 #include "renderer/samples.h"
 #include "tools/output.h"
+#include "tools/overwrite.h"
 #include "tools/render.h"
 #include "tools/render_job.h"
 #include "tools/sheet.h"
@@ -143,6 +144,8 @@ Result<renderer::Done> write_result(const RenderRequest& request, const std::str
 
 Exit render_one(const RenderRequest& request, const RenderScript& script, const std::string& file,
                 const std::string& path) {
+  if (const auto error = overwrites(path, inputs_of(request, script)))
+    return fail(Exit::Usage, *error, request);
   Exit exit = Exit::Ok;
   const auto job = set_scene(request, script, exit);
   if (!job) return exit;

@@ -14,6 +14,7 @@
 #include "renderer/picture.h"
 #include "renderer/sheet.h"
 #include "tools/output.h"
+#include "tools/overwrite.h"
 #include "tools/render_job.h"
 
 namespace mms::tools {
@@ -100,12 +101,14 @@ Exit check_sweep(const RenderRequest& request, const Sweep& sweep, const std::st
               request);
 }
 
-/// Renders one tile; its pixels are left empty where that fails.
-Exit render_tile(const Variant& v, renderer::SheetTile& tile) {
+/// Renders one tile of the sheet at `path`; its pixels are left empty where that fails.
+Exit render_tile(const Variant& v, const std::string& path, renderer::SheetTile& tile) {
   tile.caption = v.caption;
   Exit exit = Exit::Ok;
   const auto job = prepare(v.request, v.file, exit);
   if (!job) return exit;
+  if (const auto error = overwrites(path, inputs_of(v.request, *job)))
+    return fail(Exit::Usage, *error, v.request);
   const auto r = renderer::render(job->linked->program, job->scene, render_options(v.request));
   if (!r) return fail(Exit::Budget, r.error(), v.request);
   auto pixels = renderer::display_pixels(r->film, view_of(v.request));
@@ -148,7 +151,8 @@ Exit render_sheet(const RenderRequest& request) {
   if (worst != Exit::Ok) return worst;
   int done = 0;
   for (std::size_t i = 0; i < all.size() && !interrupted(); ++i) {
-    const Exit exit = render_tile(all[i], tiles[i]);
+    const Exit exit = render_tile(all[i], path, tiles[i]);
+    if (exit == Exit::Usage) return exit;  // what was asked for is wrong, and so for all tiles
     done += exit == Exit::Ok;
     worst = std::max(worst, exit);
   }

@@ -18,6 +18,7 @@
 #include "renderer/film_file.h"
 #include "renderer/picture.h"
 #include "tools/output.h"
+#include "tools/overwrite.h"
 #include "tools/render_job.h"
 
 namespace mms::tools {
@@ -207,6 +208,9 @@ Exit watch(RenderRequest request, const std::string& file, const std::string& pa
     Exit exit = Exit::Ok;
     const auto job = prepare(request, file, exit);
     std::fflush(stdout);  // messages as JSON
+    if (job)
+      if (const auto error = overwrites(path, inputs_of(request, *job)))
+        return fail(Exit::Usage, *error, request);
     if (job)
       for (const std::string& name : job->linked->dependencies) files.add(name);
     std::atomic<bool> stop{false};

@@ -191,6 +191,17 @@ TEST_CASE("unknown verb, option or message code") {
   check_message(folder.mms("eval --set 'position=[1,2]' 1"), 2, "--set $position", "real[3]");
 }
 
+TEST_CASE("a compiled program over its script") {
+  const Folder folder;
+  folder.write("lib.mms", "const real shade = 0.5;\n");
+  folder.write("good.mms", "import \"lib.mms\"; surface \"good\" bsdf = matte(shade); end\n");
+  const std::string text = folder.read("good.mms");
+  check_message(folder.mms("compile good.mms -o ./good.mms"), 2, "./good.mms", "made from");
+  check_message(folder.mms("compile good.mms -o lib.mms"), 2, "lib.mms", "made from");
+  CHECK(folder.read("good.mms") == text);
+  CHECK(folder.mms("compile good.mms -o good.mmsc").exit == 0);
+}
+
 TEST_CASE("a word that an option does not take") {
   const Folder folder;
   check_message(folder.mms("render x.mms --filter=gausian"), 2, "--filter",
@@ -299,6 +310,29 @@ TEST_CASE("a folder in place of a film") {
   check_message(folder.mms("merge a.png.film -o a.png"), 3, "a.png.film", "is a folder");
   check_message(folder.mms("render good.mms -o a.png --resume" + std::string(kSmall)), 3,
                 "a.png.film", "is a folder");
+}
+
+TEST_CASE("pictures over what they are made from") {
+  const Folder folder;
+  const std::string picture = mms::cli::project_text("examples/star_tile.png");
+  folder.write("map.png", picture);
+  folder.write("s.mms", "surface s bsdf = matte(image_value(\"map.png\", $uv, width = 0)); end\n");
+  folder.write("good.mms", kGood);
+  folder.write("good.png", kGood);
+  std::filesystem::create_symlink(folder.path("map.png"), folder.path("link.png"));
+  const auto refused = [&](const std::string& args, const std::string& where) {
+    CAPTURE(args);
+    check_message(folder.mms(args), 2, where, "over what it is made from");
+  };
+  refused("render s.mms -o map.png" + std::string(kSmall), "map.png");
+  refused("render s.mms -o ./link.png" + std::string(kSmall), "./link.png");
+  refused("render s.mms --watch -o map.png" + std::string(kSmall), "map.png");
+  refused("render s.mms good.mms -o map.png" + std::string(kSmall), "map.png");
+  refused("render good.mms --environment map.png -o map.png" + std::string(kSmall), "map.png");
+  refused("render good.png" + std::string(kSmall), "good.png");
+  refused("compare map.png map.png -o map.png", "map.png");
+  CHECK(folder.read("map.png") == picture);
+  CHECK(folder.read("good.png") == kGood);
 }
 
 TEST_CASE("endless recursion, rendered") {
