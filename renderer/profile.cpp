@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -79,6 +80,9 @@ bool is_profile(const std::string& file) {
 }
 
 Result<std::shared_ptr<const vm::Image>> open_profile(const std::string& file) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    return Error{file, "is a folder, not a photometric file", "name a file in it"};
   std::ifstream in(file, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(in)), {});
   if (!in.good() && !in.eof()) return Error{file, "cannot be read", ""};

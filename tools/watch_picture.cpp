@@ -100,6 +100,8 @@ void add_files_of(const nlohmann::json& json, const fs::path& folder, WatchedFil
 
 void add_scene(const std::string& scene, WatchedFiles& files) {
   files.add(scene);
+  std::error_code ignored;
+  if (!fs::is_regular_file(scene, ignored)) return;
   std::ifstream in(scene);
   const auto json = nlohmann::json::parse(in, nullptr, false, true);
   if (!json.is_discarded()) add_files_of(json, fs::path(scene).parent_path(), files);

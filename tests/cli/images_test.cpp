@@ -169,6 +169,11 @@ TEST_CASE("a lamp's photometric file lights a scene, and a damaged one is told w
   CHECK(eval.err == "");
   CHECK(contains(eval.out, "down = 100\nslant = 75\neast = 50\nsouth = 30\nlumens = 700\n"));
   CHECK(folder.mms("render s.mms --size 8x8 --samples 1 -o out.png").exit == 0);
+  folder.write("folder.mms", "surface s bsdf = matte(0); emission = ies(\"lamps.ies\"); end\n");
+  folder.bash("mkdir lamps.ies");
+  const Outcome lamps = folder.mms("check folder.mms");
+  CHECK(lamps.exit == 1);
+  CHECK(contains(lamps.err, "the image `lamps.ies` is a folder, not a photometric file"));
   folder.write("lamp.ies", head + "100 50 0 100 much 0\n");
   const Outcome broken = folder.mms("check s.mms");
   CHECK(broken.exit == 1);

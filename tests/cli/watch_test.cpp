@@ -109,6 +109,24 @@ end_as_another image
   CHECK(run.out == "ended 130\n");
 }
 
+TEST_CASE("a folder in place of a watched scene") {
+  const Folder folder;
+  folder.write("s.mms", "surface s bsdf = matte(0.5); end\n");
+  const Outcome run = folder.bash(kWaiting + R"BASH(
+mkdir scene.json
+mms-render render s.mms --size 24x24 --samples 3 --scene scene.json --watch -o p.png >log 2>&1 & child=$!
+until_line 1 'no scene `scene.json`'
+rmdir scene.json
+echo '{"environment": {"constant": 1}, "objects": [{"sphere": {}, "test": true}]}' >new; mv new scene.json
+until_line 1 'estimated error'
+touch before.png
+end_as_another scene
+)BASH");
+  INFO(run.out, run.err);
+  CHECK(run.exit == 0);
+  CHECK(run.out == "ended 130\n");
+}
+
 TEST_CASE("a watched compiled program waits for its image, and follows it") {
   const Folder folder;
   folder.write("s.mms", R"(surface "s" bsdf = matte(image("p.ppm", $uv)); end)");
