@@ -98,10 +98,11 @@ double triangle_area(const Mesh& m, std::uint32_t triangle);
 /// A point of the surface; spread evenly by area, but over the triangles of a mesh by number.
 SurfacePoint sample_surface(const Shape& s, double u, double v);
 
-/// The same, and the point of a sphere next to `p`, without what only scripts ask for: on spheres,
-/// quads and discs uv and tangents are left 0, which `complete` adds.
+/// The same without what only scripts ask for: on spheres, quads and discs uv and tangents are 0.
 SurfacePoint sample_place(const Shape& s, double u, double v);
+/// Likewise, the point of a sphere next to `p`.
 SurfacePoint place_at(const Sphere& s, Vec3d p);
+/// Adds what they leave out.
 SurfacePoint complete(const Shape& s, const SurfacePoint& place);
 
 /// Whether `p` is inside a closed shape; for a mesh by counting the triangles above it.
