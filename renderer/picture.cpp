@@ -57,6 +57,8 @@ Result<Done> check_writable(const std::string& path) {
   const std::string beside = folder.empty() ? "." : folder.string();
   if (::access(beside.c_str(), W_OK) != 0)
     return Error{path, "the output cannot be written", "check the permissions of its folder"};
+  if (extension == ".exr")
+    if (const auto io = open_image_io(path); !io) return io.error();
   return Done{};
 }
 

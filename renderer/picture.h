@@ -52,7 +52,8 @@ struct Picture {
   Metadata metadata = {};
 };
 
-/// Whether `path` has a supported extension (pictures and films) and its folder can be written to.
+/// Whether `path` has a supported extension (pictures and films), its folder can be written to, and
+/// what writes an .exr is there.
 Result<Done> check_writable(const std::string& path);
 
 /// Pixels as encoded sRGB in [0, 1] (or whatever the OpenColorIO view is for), row by row, three a

@@ -11,6 +11,7 @@
 
 #include "lang/diagnostics.h"
 #include "renderer/film_file.h"
+#include "renderer/openimageio.h"
 #include "renderer/picture.h"
 #include "renderer/sheet.h"
 #include "tools/output.h"
@@ -142,6 +143,8 @@ Exit render_sheet(const RenderRequest& request) {
                 request);
   if (const auto ok = check_output({path}, request); !ok)
     return fail(Exit::File, ok.error(), request);
+  if (const auto io = renderer::open_image_io(path); !io)  // rather than after all is rendered
+    return fail(Exit::File, io.error(), request);
   const std::vector<Variant> all = variants(request, *sweep);
   std::vector<renderer::SheetTile> tiles(all.size());
   Exit worst = Exit::Ok;

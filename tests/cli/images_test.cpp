@@ -182,3 +182,20 @@ TEST_CASE("a lamp's photometric file lights a scene, and a damaged one is told w
 }
 
 #endif
+
+TEST_CASE("without the module for OpenImageIO a .png is rendered; all else is refused at once") {
+  const Folder folder;
+  folder.write("s.mms", "surface s bsdf = matte(0.5); end\n");
+  const Outcome run = folder.bash(
+      "cp $(command -v mms) $(command -v mms-render) .\n"
+      "small='render s.mms --quiet --size 8x8 --samples 1'\n"
+      "./mms $small -o a.png && echo rendered\n"
+      "./mms $small -o a.exr; echo $?\n"
+      "./mms $small s.mms -o t.png; echo $?\n"
+      "./mms compare a.png a.png; echo $?\n"
+      "[ -e a.exr.film ] || echo 'nothing begun'\n");
+  INFO(run.err);
+  CHECK(run.out == "rendered\n3\n3\n3\nnothing begun\n");
+  for (const char* file : {"a.exr", "t.png", "a.png"})
+    CHECK(contains(run.err, std::string("error: ") + file + ": there is no OpenImageIO here"));
+}
