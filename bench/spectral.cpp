@@ -260,8 +260,8 @@ int main(int argc, char** argv) {
       "one. Ratios are single / clustered with two standard errors over seeds; toned: after\n"
       "1 - 2^(-1.7 c). From 16 clusters on the ratio is short of the thesis' because its single\n"
       "samples fall slower, like C^-0.34: ours have stratified wavelengths, and their error is "
-      "there a\n"
-      "fifth to a third of the thesis', while that of the clusters is the thesis' or less. "
+      "there\n"
+      "0.15 to 0.27 of the thesis', while that of the clusters is the thesis' or less. "
       "Reproduce: "
       "`./run bench` (`bench_spectral`).\n",
       kSide, kReference);
