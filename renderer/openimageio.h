@@ -18,8 +18,10 @@ namespace mms::renderer {
 struct OpenImageIo {
   /// The bytes of an .exr with all layers.
   Result<std::string> (*exr)(const Picture& picture);
-  /// `read_picture` and `make_sheet`.
+  /// `read_picture`.
   Result<ReadPicture> (*read)(const std::string& path, const std::string& layer);
+  /// `tiles` of width x height pixels in rows of `columns`; each caption stands below its tile, all
+  /// of one size that fits.
   Sheet (*sheet)(const std::vector<SheetTile>& tiles, int width, int height, int columns);
   /// `display_values` of Curve::OpenColorIO.
   Result<std::vector<float>> (*display)(const Film& film, const View& view);

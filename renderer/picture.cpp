@@ -70,10 +70,8 @@ Result<Done> write_png(const std::string& path, int width, int height,
 
 Result<Done> write_picture(const std::string& path, const Picture& picture, const View& view) {
   if (extension_of(path) == ".exr") {
-    if (const Result<Done> ok = check_writable(path); !ok) return ok;
-    const auto io = open_image_io(path);
-    if (!io) return io.error();
-    return put(path, (*io)->exr(picture));
+    if (const Result<Done> ok = check_writable(path); !ok) return ok;  // so what writes it is there
+    return put(path, (*open_image_io(path))->exr(picture));
   }
   const auto pixels = display_pixels(picture.film, view);
   if (!pixels) return pixels.error();
@@ -87,12 +85,6 @@ Result<ReadPicture> read_picture(const std::string& path, const std::string& lay
   const auto io = open_image_io(path);
   if (!io) return io.error();
   return (*io)->read(path, layer);
-}
-
-Result<Sheet> make_sheet(const std::vector<SheetTile>& tiles, int width, int height, int columns) {
-  const auto io = open_image_io("the sheet");
-  if (!io) return io.error();
-  return (*io)->sheet(tiles, width, height, columns);
 }
 
 Result<const OpenImageIo*> open_image_io(const std::string& file) {

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
-
 namespace mms::renderer {
 
 struct SheetTile {
@@ -21,9 +19,5 @@ struct Sheet {
   std::vector<unsigned char> pixels;
   bool captions = true;  ///< false where no font was found: then the strips are empty
 };
-
-/// `tiles` of width x height pixels in rows of `columns`; each caption stands below its tile, all
-/// of one size that fits. Error: OpenImageIO, which draws the captions, is not there.
-Result<Sheet> make_sheet(const std::vector<SheetTile>& tiles, int width, int height, int columns);
 
 }  // namespace mms::renderer

@@ -143,8 +143,8 @@ Exit render_sheet(const RenderRequest& request) {
                 request);
   if (const auto ok = check_output({path}, request); !ok)
     return fail(Exit::File, ok.error(), request);
-  if (const auto io = renderer::open_image_io(path); !io)  // rather than after all is rendered
-    return fail(Exit::File, io.error(), request);
+  const auto io = renderer::open_image_io(path);  // rather than when all is rendered
+  if (!io) return fail(Exit::File, io.error(), request);
   const std::vector<Variant> all = variants(request, *sweep);
   std::vector<renderer::SheetTile> tiles(all.size());
   Exit worst = Exit::Ok;
@@ -168,11 +168,10 @@ Exit render_sheet(const RenderRequest& request) {
   const bool rows = *sweep && (*sweep)->steps <= kMostColumns;
   const int columns =
       rows ? (*sweep)->steps : std::min(kMostColumns, int(std::ceil(std::sqrt(count))));
-  const auto sheet = renderer::make_sheet(tiles, request.width, request.height, columns);
-  if (!sheet) return fail(Exit::File, sheet.error(), request);
-  const auto written = renderer::write_png(path, sheet->width, sheet->height, sheet->pixels);
+  const renderer::Sheet sheet = (*io)->sheet(tiles, request.width, request.height, columns);
+  const auto written = renderer::write_png(path, sheet.width, sheet.height, sheet.pixels);
   if (!written) return fail(Exit::File, written.error(), request);
-  if (!sheet->captions && !request.quiet)
+  if (!sheet.captions && !request.quiet)
     fmt::print(stderr, "note: {}: no captions, since there is no font: install fonts-dejavu-core\n",
                path);
   if (cut)
