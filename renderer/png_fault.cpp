@@ -1,35 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/png_fault.h"
 
+#include <zlib.h>
+
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstdint>
 #include <fstream>
-#include <span>
 #include <string_view>
 #include <vector>
 
 namespace mms::renderer {
-
 namespace {
 
 constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
 
-/// The remainder of each byte by the polynomial of the PNG specification (ISO/IEC 15948, annex D).
-constexpr std::array<std::uint32_t, 256> kRemainders = [] {
-  std::array<std::uint32_t, 256> all{};
-  for (std::uint32_t n = 0; n < 256; ++n) {
-    std::uint32_t c = n;
-    for (int k = 0; k < 8; ++k) c = c & 1 ? 0xedb88320u ^ c >> 1 : c >> 1;
-    all[n] = c;
-  }
-  return all;
-}();
-
-std::uint32_t checksum(std::uint32_t c, std::span<const char> bytes) {
-  for (const char b : bytes) c = kRemainders[(c ^ static_cast<unsigned char>(b)) & 255] ^ c >> 8;
-  return c;
+/// Of `bytes` behind what has the checksum `c`.
+std::uint32_t checksum(std::uint32_t c, std::string_view bytes) {
+  return std::uint32_t(crc32(c, reinterpret_cast<const Bytef*>(bytes.data()), uInt(bytes.size())));
 }
 
 std::uint32_t number(const char* bytes) {
@@ -50,7 +38,7 @@ std::string png_fault(const std::string& path) {
     const std::string_view name(head + 4, 4);
     const bool word = std::ranges::all_of(name, [](unsigned char c) { return std::isalpha(c); });
     const std::string called = word ? "its chunk `" + std::string(name) + "`" : "a chunk of it";
-    std::uint32_t sum = checksum(~0u, name);
+    std::uint32_t sum = checksum(0, name);
     for (std::uint32_t left = number(head); left > 0;) {
       const std::uint32_t count = std::min(left, std::uint32_t(piece.size()));
       if (!in.read(piece.data(), count)) return "it is cut off within " + called;
@@ -59,7 +47,7 @@ std::string png_fault(const std::string& path) {
     }
     char stated[4];
     if (!in.read(stated, 4)) return "it is cut off within " + called;
-    if (number(stated) != ~sum) return called + " is damaged";
+    if (number(stated) != sum) return called + " is damaged";
     if (name == "IEND") return "";
   }
 }

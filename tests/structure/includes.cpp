@@ -16,17 +16,12 @@ struct Library {
 
 const std::vector<Library>& third_party() {
   static const std::vector<Library> all = {
-      {"Embree", "embree", true},
-      {"OpenImageIO", "OpenImageIO/", true},
-      {"oneTBB", "tbb/", true},
-      {"oneTBB", "oneapi/", true},
-      {"libpng", "png.h", true},
-      {"Assimp", "assimp/", true},
-      {"nlohmann", "nlohmann/", false},
-      {"CLI11", "CLI/", true},
-      {"fmt", "fmt/", false},
-      {"doctest", "doctest", false},
-      {"Google Benchmark", "benchmark/", false},
+      {"Embree", "embree", true},    {"OpenImageIO", "OpenImageIO/", true},
+      {"oneTBB", "tbb/", true},      {"oneTBB", "oneapi/", true},
+      {"libpng", "png.h", true},     {"zlib", "zlib.h", true},
+      {"Assimp", "assimp/", true},   {"nlohmann", "nlohmann/", false},
+      {"CLI11", "CLI/", true},       {"fmt", "fmt/", false},
+      {"doctest", "doctest", false}, {"Google Benchmark", "benchmark/", false},
   };
   return all;
 }
