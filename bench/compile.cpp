@@ -308,6 +308,7 @@ std::string process_table(int runs) {
   for (const auto& [name, arguments] : rows)
     if (const Series s = processes(arguments, runs); !s.empty())
       t += fmt::format("| {} | {} |\n", name, spread(s));
+  std::filesystem::remove(picture);
   return t;
 }
 
