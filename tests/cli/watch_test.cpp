@@ -13,8 +13,9 @@ using mms::cli::Outcome;
 
 namespace {
 
-/// `until_line COUNT TEXT` waits for the COUNT-th line with TEXT in the file `log`; `end_as_another
-/// WHAT` ends the watching.
+/// `until_line COUNT TEXT` waits for the COUNT-th line with TEXT in the file `log`; `the_end` and
+/// `end_as_another WHAT` end the watching; `follows FILE WHAT` puts FILE where it is waited for,
+/// then another.
 const std::string kWaiting = R"BASH(
 fail() { echo "$*"; cat log err; kill -9 $child; exit 1; }
 until_line() {
@@ -23,13 +24,30 @@ until_line() {
   done
   fail "no $1. line with $2"
 }
-# The picture has become another than before.png; the end.
+the_end() { kill -INT $child; wait $child; echo "ended $?"; }
+# The picture has become another than before.png.
 end_as_another() {
   cmp -s before.png p.png && fail "another $1 changed nothing"
-  kill -INT $child; wait $child; echo "ended $?"
+  the_end
+}
+follows() {
+  printf 'P6 1 1 255\n@@@' >new; mv new $1
+  until_line 1 'estimated error'
+  cp p.png before.png
+  printf 'P6 1 1 255\nccc' >new; mv new $1
+  until_line 2 'estimated error'
+  end_as_another $2
 }
 touch log err
 )BASH";
+
+/// Runs `script` behind these: it ends the watching, and prints `rest` after that.
+void check_watched(const Folder& folder, const std::string& script, const std::string& rest = "") {
+  const Outcome run = folder.bash(kWaiting + script);
+  INFO(run.out, run.err);
+  CHECK(run.exit == 0);
+  CHECK(run.out == "ended 130\n" + rest);
+}
 
 }  // namespace
 
@@ -40,7 +58,7 @@ TEST_CASE(
   folder.write("scene.json",
                R"({"environment": {"constant": 1}, "objects": [{"sphere": {}, "test": true}]})");
   // `same`: the picture is the one that a plain render makes.
-  const Outcome run = folder.bash(kWaiting + R"BASH(
+  check_watched(folder, R"BASH(
 options="--size 24x24 --samples 3 --seed 9 --scene scene.json"
 same() {
   mms render s.mms --quiet $options -o plain.png || fail "$1 does not render"
@@ -72,10 +90,8 @@ until_line 6 '"seconds"'
 same sixth
 end_as_another image
 grep -c first_picture_seconds log
-)BASH");
-  INFO(run.out, run.err);
-  CHECK(run.exit == 0);
-  CHECK(run.out == "ended 130\n6\n");
+)BASH",
+                "6\n");
 }
 
 TEST_CASE("files that a watched picture waits for: not there yet, deleted and written again") {
@@ -84,7 +100,7 @@ TEST_CASE("files that a watched picture waits for: not there yet, deleted and wr
                R"(import "lib.mms"; surface "s" bsdf = matte(image("maps/p.ppm", $uv)); end)");
   folder.write("scene.json", R"({"environment": {"image": "sky.ppm"},
                                  "objects": [{"sphere": {}, "test": true}]})");
-  const Outcome run = folder.bash(kWaiting + R"BASH(
+  check_watched(folder, R"BASH(
 mms-render render s.mms --size 24x24 --samples 3 --scene scene.json --watch -o p.png >log 2>&1 & child=$!
 until_line 1 'lib.mms'
 echo 'const real unused = 1;' >lib.mms
@@ -104,65 +120,42 @@ printf 'P6 1 1 255
 until_line 2 'estimated error'
 end_as_another image
 )BASH");
-  INFO(run.out, run.err);
-  CHECK(run.exit == 0);
-  CHECK(run.out == "ended 130\n");
 }
 
 TEST_CASE("a folder in place of a watched scene") {
   const Folder folder;
   folder.write("s.mms", "surface s bsdf = matte(0.5); end\n");
-  const Outcome run = folder.bash(kWaiting + R"BASH(
+  check_watched(folder, R"BASH(
 mkdir scene.json
 mms-render render s.mms --size 24x24 --samples 3 --scene scene.json --watch -o p.png >log 2>&1 & child=$!
 until_line 1 'no scene `scene.json`'
 rmdir scene.json
 echo '{"environment": {"constant": 1}, "objects": [{"sphere": {}, "test": true}]}' >new; mv new scene.json
 until_line 1 'estimated error'
-touch before.png
-end_as_another scene
+the_end
 )BASH");
-  INFO(run.out, run.err);
-  CHECK(run.exit == 0);
-  CHECK(run.out == "ended 130\n");
 }
 
 TEST_CASE("a watched compiled program waits for its image, and follows it") {
   const Folder folder;
   folder.write("s.mms", R"(surface "s" bsdf = matte(image("p.ppm", $uv)); end)");
-  const Outcome run = folder.bash(kWaiting + R"BASH(
+  check_watched(folder, R"BASH(
 printf 'P6 1 1 255\n@@@' >p.ppm
 mms compile s.mms -o s.mmsc && rm p.ppm
 mms-render render s.mmsc --size 24x24 --samples 3 --watch -o p.png >log 2>&1 & child=$!
 until_line 1 'put it there'
-printf 'P6 1 1 255\n@@@' >new; mv new p.ppm
-until_line 1 'estimated error'
-cp p.png before.png
-printf 'P6 1 1 255\nccc' >new; mv new p.ppm
-until_line 2 'estimated error'
-end_as_another image
+follows p.ppm image
 )BASH");
-  INFO(run.out, run.err);
-  CHECK(run.exit == 0);
-  CHECK(run.out == "ended 130\n");
 }
 
 TEST_CASE("a watched picture follows the environment that it was given") {
   const Folder folder;
   folder.write("s.mms", "surface s bsdf = matte(0.5); end\n");
-  const Outcome run = folder.bash(kWaiting + R"BASH(
+  check_watched(folder, R"BASH(
 mms-render render s.mms --size 24x24 --samples 3 --scene furnace --environment sky.ppm --watch -o p.png >log 2>&1 & child=$!
 until_line 1 'sky.ppm'
-printf 'P6 1 1 255\n@@@' >new; mv new sky.ppm
-until_line 1 'estimated error'
-cp p.png before.png
-printf 'P6 1 1 255\nccc' >new; mv new sky.ppm
-until_line 2 'estimated error'
-end_as_another picture
+follows sky.ppm picture
 )BASH");
-  INFO(run.out, run.err);
-  CHECK(run.exit == 0);
-  CHECK(run.out == "ended 130\n");
 }
 
 TEST_CASE("only one script can be watched") {
