@@ -181,8 +181,6 @@ TEST_CASE("a lamp's photometric file lights a scene, and a damaged one is told w
                  "the image `lamp.ies` is not understood: line 6: expected candela, found `much`"));
 }
 
-#endif
-
 TEST_CASE("without the module for OpenImageIO a .png is rendered; all else is refused at once") {
   const Folder folder;
   folder.write("s.mms", "surface s bsdf = matte(0.5); end\n");
@@ -199,3 +197,5 @@ TEST_CASE("without the module for OpenImageIO a .png is rendered; all else is re
   for (const char* file : {"a.exr", "t.png", "a.png"})
     CHECK(contains(run.err, std::string("error: ") + file + ": there is no OpenImageIO here"));
 }
+
+#endif
