@@ -144,6 +144,13 @@ void Flights::advance_all(std::vector<Flight>& flights, const std::vector<PathVi
                  [&](std::span<const Request> batch) { answer(flights, paths, batch); });
 }
 
+bool Flights::open(Vec3f from, Vec3f to) {
+  ++counters_.shadow_rays;
+  const Vec3f way = to - from;
+  const float distance = length(way);
+  return !(distance > 0) || !world_.accel.occluded(from, way / distance, distance);
+}
+
 /// Finds what lies on the ray beyond distance `from`.
 void Flights::trace(Flight& f, Crossings& crossings, float from) {
   const bool shadow = f.errand == Errand::Shadow;

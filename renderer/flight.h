@@ -49,6 +49,16 @@ struct Coefficients {
   Spectrumf emission;                ///< W m^-3 sr^-1 nm^-1
 };
 
+/// Of a path that goes on through a clear ball (renderer/caustics.h): where it left the vertex
+/// before, from where light can be drawn that comes the same way.
+struct Detour {
+  int ball = -1;           ///< index into World::balls; -1: on no such way
+  bool inside = false;     ///< has not left the ball yet
+  float cosine = 0;        ///< to the normal, where it entered
+  Vec3f origin, receiver;  ///< of the flight that came to the ball
+  int draws = 0;           ///< likewise
+};
+
 struct Flight {
   Vec3f origin, direction;
   Vec3f receiver;  ///< normal of the Receiver that it left as a scattered ray
@@ -59,11 +69,12 @@ struct Flight {
   bool emission_seen = false;  ///< of the crossing that `hit` is
   float t = 0;                 ///< how far it has come
   float t_max = 0;             ///< how far it goes at most
-  Hit hit;                     ///< the opaque surface at its end
-  int next = 0;                ///< crossing to come
-  std::uint32_t step = 0;      ///< counts its random numbers
-  std::uint32_t stream = 0;    ///< tells them from those of other flights of the path
-  double light_density = 0;    ///< of a shadow ray: with which its light was drawn, 1/sr
+  Detour detour;
+  Hit hit;                   ///< the opaque surface at its end
+  int next = 0;              ///< crossing to come
+  std::uint32_t step = 0;    ///< counts its random numbers
+  std::uint32_t stream = 0;  ///< tells them from those of other flights of the path
+  double light_density = 0;  ///< of a shadow ray: with which its light was drawn, 1/sr
   Media media;
   Carried carried;
   int medium = -1;     ///< object whose volume is asked, or scattered it
@@ -108,6 +119,9 @@ class Flights {
   /// do: they come along the next time, so that scripts are run on full batches. What has ended is
   /// not touched.
   void fly(std::vector<Flight>& flights, const std::vector<PathView>& paths, double left = 0);
+
+  /// Whether nothing lies between two points of a plain world.
+  bool open(Vec3f from, Vec3f to);
 
   const FlightCounters& counters() const { return counters_; }
 

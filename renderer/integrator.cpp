@@ -56,6 +56,11 @@ bool any_nan(std::span<const float> numbers) {
   return std::any_of(numbers.begin(), numbers.end(), [](float x) { return std::isnan(x); });
 }
 
+/// 1 where there is a chance at all, else 0.
+Spectrumf possible(const Spectrumf& chances) {
+  return Spectrumf::map([](float chance) { return chance > 0 ? 1.0f : 0.0f; }, chances);
+}
+
 const materials::Layout& isotropic_layout() {
   static const materials::Layout layout(
       vm::MaterialLayout{{{int(materials::Lobe::Isotropic), {}, {}}}});
@@ -147,8 +152,7 @@ struct Integrator::Scatterer {
       const auto s = sample(p, u_lobe, 0, 0);
       if (!s || (count > 0 && dot(s->wi, ways[0].wi) == dot(ways[0].wi, ways[0].wi))) continue;
       ways[count] = *s;
-      ways[count++].pdf =
-          Spectrumf::map([](float chance) { return chance > 0 ? 1.0f : 0.0f; }, s->pdf);
+      ways[count++].pdf = possible(s->pdf);
     }
     return count;
   }
@@ -164,12 +168,15 @@ void Integrator::trace(std::span<const PixelSample> samples, std::span<FilmSampl
   paths_.clear();
   views_.clear();
   now_.clear();
+  glasses_.resize(samples.size() * world_.balls.size());
   std::size_t started = 0;
   const std::size_t together = world_.compiled.executable() ? kTogether : kTogetherUnasked;
   for (;;) {
     make_room(together);
+    const std::size_t first = paths_.size();
     for (; started < samples.size() && now_.size() < together; ++started)
       start(samples[started], int(started), stream[started]);
+    ask_balls(first);
     if (now_.empty()) break;
     make_room(now_.size());  // each may divide
     flights_.fly(now_, views_, kLeftFlying);
@@ -252,8 +259,8 @@ void Integrator::gather() {
       arrived_.push_back({kind, &f});
     } else if (f.end == End::Free && f.errand == Errand::Path) {
       const Vec3d d(f.direction);
-      const Spectrumf weight = f.carried.weighted(
-          Technique::Scattering, world_.lights.pdf_environment(f.left(), d), world_.estimator);
+      const double light = f.detour.ball < 0 ? world_.lights.pdf_environment(f.left(), d) : 0;
+      const Spectrumf weight = f.carried.weighted(Technique::Scattering, light, world_.estimator);
       p.radiance += weight * world_.lights.environment(d, p.cluster);
     }
   }
@@ -270,9 +277,21 @@ void Integrator::gather() {
 
 void Integrator::add_emission(const Vertex& v, const Spectrumf& emitted) {
   if (emitted.is_black() || v.from->emission_seen) return;
-  const double light = world_.lights.pdf(v.from->left(), v.from->hit.object, v.point.surface);
   paths_[v.from->path].radiance +=
-      v.from->carried.weighted(Technique::Scattering, light, world_.estimator) * emitted;
+      v.from->carried.weighted(Technique::Scattering, light_density(v), world_.estimator) * emitted;
+}
+
+/// Density, per steradian, of drawing the light that a path has met at `v` from where it was last
+/// scattered, by the way that it took.
+double Integrator::light_density(const Vertex& v) const {
+  const Detour& d = v.from->detour;
+  const int object = v.from->hit.object;
+  if (d.ball < 0) return world_.lights.pdf(v.from->left(), object, v.point.surface);
+  if (d.inside) return 0;
+  const Receiver receiver(Vec3d(d.origin), Vec3d(d.receiver), d.draws);
+  const double straight = world_.lights.pdf(receiver, object, v.point.surface);
+  return density_through(world_.balls[d.ball], glass(v.from->path, d.ball).index, receiver.position,
+                         v.point.surface, straight, v.point.view, d.cosine);
 }
 
 /// One batch: vertices that wear the same surface or lie in volumes of the same descriptor.
@@ -407,7 +426,11 @@ Flight* Integrator::leave(const Vertex& v, const Scatterer& s, const Sampled& sa
   Flight f = *v.from;
   f.path = path;
   // The same vertex lit by a light drawn with density 1 has the density of the path up to here.
-  f.carried.light_pdf = sampled.specular ? Spectrumf(0.0f) : v.from->carried.pdf;
+  f.detour = detour(v, sampled);
+  if (f.detour.ball >= 0)
+    f.carried.light_pdf *= possible(sampled.pdf);
+  else
+    f.carried.light_pdf = sampled.specular ? Spectrumf(0.0f) : v.from->carried.pdf;
   f.carried.happened(sampled.f, sampled.pdf);
   f.carried.rescale();
   if (!(f.carried.beta.sum() > 0)) return nullptr;
@@ -453,17 +476,74 @@ void Integrator::connect(const Vertex& v, const Scatterer& s, int draws) {
   }
 }
 
-/// Makes the shadow ray to a point of a light; thesis (4.15).
+/// What is known of the way through a clear ball, if a path goes on along one.
+Detour Integrator::detour(const Vertex& v, const Sampled& sampled) const {
+  if (!sampled.specular || world_.balls.empty()) return {};
+  const Flight& f = *v.from;
+  const int ball = world_.ball_of(f.hit.object);
+  const Vec3d n = v.point.surface.geometric_normal;
+  const double in = dot(v.point.view, n);
+  if (ball < 0 || (dot(sampled.wi, n) < 0) != (in > 0)) return {};
+  if (!(glass(f.path, ball).index > 0)) return {};
+  Detour d = f.detour;
+  if (in > 0) {
+    const bool scattered = d.ball < 0 && f.carried.light_pdf.max() > 0;
+    return scattered ? Detour{ball, true, float(in), f.origin, f.receiver, f.draws} : Detour();
+  }
+  if (d.ball != ball || !d.inside) return {};
+  d.inside = false;
+  return d;
+}
+
+/// Makes the shadow rays to a point of a light: straight, and through clear balls.
 void Integrator::connect(const Vertex& v, const Scatterer& s, const LightSample& light) {
   if (!(light.pdf > 0)) return;
-  const Path& p = paths_[v.from->path];
-  const Vec3d from = v.point.surface.position;
+  if (light.object != kEnvironment)
+    for (int ball = 0; ball < int(world_.balls.size()); ++ball) connect_through(ball, v, s, light);
   Flight f = *v.from;
   if (!s.medium) follow(f, v, light.direction);
   if (world_.sealed_in(f.media)) return;
-  const Sampled towards = s.evaluate(v.point, light.direction);
-  if (towards.f.is_black()) return;
+  const Vec3f origin =
+      s.medium ? Vec3f(v.point.surface.position) : ray_origin(v.point.surface, light.direction);
+  send_to_light(f, v, s.evaluate(v.point, light.direction), light, origin);
+}
 
+/// The shadow rays that go through a ball: first to where they leave it.
+void Integrator::connect_through(int i, const Vertex& v, const Scatterer& s,
+                                 const LightSample& light) {
+  const BallGlass& glass = this->glass(v.from->path, i);
+  if (!(glass.index > 0) || paths_[v.from->path].depth + 2 > world_.max_depth) return;
+  const ClearBall& ball = world_.balls[std::size_t(i)];
+  const Vec3d from = v.point.surface.position, to = light.surface.position;
+  std::array<BallRay, kMostBallRays> rays;
+  const int count = rays_through(ball, glass.index, from, to, rays);
+  for (const BallRay& ray : std::span(rays).first(std::size_t(count))) {
+    const Vec3d direction = normalize(ray.entry - from), inside = ray.exit - ray.entry;
+    Sampled towards = s.evaluate(v.point, direction);
+    const Spectrumf carried = glass.carried(ray.cosine);
+    towards.f *= carried;
+    LightSample beyond = light;
+    beyond.direction = normalize(to - ray.exit);
+    beyond.pdf = density_through(ball, glass.index, from, light.surface, light.pdf,
+                                 -beyond.direction, ray.cosine);
+    if (towards.f.is_black() || !(beyond.pdf > 0)) continue;
+    const Sphere sphere{ball.centre, ball.radius};
+    const SurfacePoint entry = place_at(sphere, ray.entry), exit = place_at(sphere, ray.exit);
+    if (!flights_.open(ray_origin(v.point.surface, direction), ray_origin(entry, -direction)) ||
+        !flights_.open(ray_origin(entry, inside), ray_origin(exit, -inside)))
+      continue;
+    Flight f = *v.from;
+    f.carried.pdf *= possible(carried);
+    send_to_light(f, v, towards, beyond, ray_origin(exit, beyond.direction));
+  }
+}
+
+/// Makes the shadow ray of a vertex to a point of a light; thesis (4.15). `f`: the flight that came
+/// there. It leaves `origin`, which is elsewhere where light goes by way of something.
+void Integrator::send_to_light(Flight f, const Vertex& v, const Sampled& towards,
+                               const LightSample& light, Vec3f origin) {
+  if (!(light.pdf > 0) || towards.f.is_black()) return;
+  const Path& p = paths_[v.from->path];
   f.carried.beta *= towards.f;
   f.carried.light_pdf = f.carried.pdf;
   f.carried.pdf *= towards.pdf;
@@ -477,7 +557,7 @@ void Integrator::connect(const Vertex& v, const Scatterer& s, const LightSample&
       f.carried.beta *= fixed_emission(surface.fixed, light.surface, -light.direction, p.cluster);
   }
   if (f.carried.beta.is_black()) return;
-  f.origin = s.medium ? Vec3f(from) : ray_origin(v.point.surface, light.direction);
+  f.origin = origin;
   f.t_max = std::numeric_limits<float>::infinity();
   Vec3d direction = light.direction;
   if (light.object != kEnvironment) {

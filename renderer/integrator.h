@@ -83,6 +83,15 @@ class Integrator {
   void follow(Flight& f, const Vertex& v, Vec3d direction) const;
   void connect(const Vertex& v, const Scatterer& s, int draws);
   void connect(const Vertex& v, const Scatterer& s, const LightSample& light);
+  void connect_through(int ball, const Vertex& v, const Scatterer& s, const LightSample& light);
+  void send_to_light(Flight f, const Vertex& v, const Sampled& towards, const LightSample& light,
+                     Vec3f origin);
+  Detour detour(const Vertex& v, const Sampled& sampled) const;
+  double light_density(const Vertex& v) const;
+  void ask_balls(std::size_t first);
+  const BallGlass& glass(int path, int ball) const {
+    return glasses_[std::size_t(paths_[path].sample) * world_.balls.size() + std::size_t(ball)];
+  }
   void ask_emitters();
   void send_shadow_rays();
   static bool survives(Carried& c, int depth, float u);
@@ -102,6 +111,7 @@ class Integrator {
   std::vector<ScriptPoint> light_points_;
   std::vector<const ScriptPoint*> lanes_;
   std::vector<float> params_, scratch_;
+  std::vector<BallGlass> glasses_;  ///< of each sample's wavelengths, ball after ball
 };
 
 }  // namespace mms::renderer

@@ -16,6 +16,36 @@ void Integrator::ask_surroundings() {
   surroundings_.ask(places_);
 }
 
+/// Asks what clear balls are made of for the wavelengths of the paths from `first` on.
+void Integrator::ask_balls(std::size_t first) {
+  const std::size_t balls = world_.balls.size();
+  const auto batch = [&](std::size_t ball, std::size_t from, std::size_t to) {
+    const Object& object = world_.scene.objects[world_.balls[ball].object];
+    const vm::Descriptor& d = *world_.scene.surfaces[object.surface].script;
+    light_points_.assign(to - from, {});
+    lanes_.clear();
+    for (std::size_t i = from; i < to; ++i) {
+      ScriptPoint& q = light_points_[i - from];
+      q.object = &object;
+      q.cluster = &paths_[i].cluster;
+      lanes_.push_back(&q);
+    }
+    scripts_.run(d, EntryKind::Shade, lanes_);
+    params_.resize(std::max(params_.size(), std::size_t(world_.compiled.max_params())));
+    for (std::size_t i = from; i < to; ++i) {
+      BallGlass& glass = glasses_[std::size_t(paths_[i].sample) * balls + ball];
+      glass = {};
+      if (scripts_.given_up(int(i - from))) continue;
+      scripts_.params(d.shade.material, int(i - from), params_.data());
+      glass = BallGlass(params_.data());
+    }
+  };
+  const std::size_t width = std::size_t(scripts_.width());
+  for (std::size_t ball = 0; ball < balls; ++ball)
+    for (std::size_t i = first; i < paths_.size(); i += width)
+      batch(ball, i, std::min(i + width, paths_.size()));
+}
+
 /// Asks scripted emitters what they radiate towards the vertices that drew them.
 void Integrator::ask_emitters() {
   const auto surface_index = [&](const Connection& c) {

@@ -42,6 +42,12 @@ bool outside(const Sphere& s, Vec3d from) {
   return dot(to, to) > s.radius * s.radius * (1 + 1e-9);
 }
 
+/// Whether a point of a sphere is turned away; at the rim, where rounding decides, none is.
+bool far_side(const SurfacePoint& at, Vec3d from) {
+  const Vec3d to = from - at.position;
+  return dot(at.geometric_normal, to) < -1e-4 * length(to);
+}
+
 /// Area density to solid-angle density.
 double to_solid_angle(double pdf_area, Vec3d from, const SurfacePoint& at) {
   const Vec3d to = at.position - from;
@@ -196,7 +202,7 @@ double Lights::environment_share(Vec3d from) const {
 
 double Lights::probability(int i, const Receiver& from) const {
   const int n = int(choices_.size());
-  if (from.draws > 0) return from.draws;
+  if (from.draws > 0) return below_horizon(i, from) ? 0 : from.draws;
   if (n == 1) return 1;
   if (n <= kLightsWeighed) {
     std::array<double, kLightsWeighed> weights;
@@ -301,7 +307,8 @@ LightSample Lights::sample_one(int choice, Vec3d from, double u, double v) const
 /// Per steradian, the light being chosen.
 double Lights::density(const Choice& c, Vec3d from, const SurfacePoint& at) const {
   if (const Sphere* s = std::get_if<Sphere>(&scene_->objects[c.object].shape))
-    if (outside(*s, from)) return 1 / (kTwoPi * one_minus_cos_cone(*s, from));
+    if (outside(*s, from))
+      return far_side(at, from) ? 0 : 1 / (kTwoPi * one_minus_cos_cone(*s, from));
   return to_solid_angle(1 / c.area, from, at);
 }
 

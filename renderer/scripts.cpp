@@ -46,6 +46,7 @@ CompiledDescriptor compile(const vm::Program& p, const vm::Descriptor& d) {
   c.bumps =
       !constant_equal(p, d.shade.gradient[0], 0) || !constant_equal(p, d.shade.gradient[1], 0);
   c.index = index_of(d.shade.material);
+  c.placeless_material = placeless(d.output(Output::Material));
   c.constant_material = true;
   for (const vm::LayoutNode& node : d.shade.material.nodes)
     for (const vm::ValueSource& v : node.params) c.constant_material &= v.constant;

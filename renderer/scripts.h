@@ -41,6 +41,7 @@ struct CompiledDescriptor {
   bool semi_transparent = false;     ///< a surface whose scattering is not constant 1
   bool homogeneous = false;          ///< a volume whose coefficients do not depend on the place
   bool constant_material = false;    ///< no number of `material` depends on a run
+  bool placeless_material = false;   ///< none depends on where
   /// Refractive index, inside over outside, of the first lobe that has one, of `shade`; or null.
   const vm::ValueSource* index = nullptr;
   bool bumps = false;   ///< gradient is not constant zero

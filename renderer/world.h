@@ -6,6 +6,7 @@
 
 #include "renderer/accel.h"
 #include "renderer/camera.h"
+#include "renderer/caustics.h"
 #include "renderer/lights.h"
 #include "renderer/majorants.h"
 #include "renderer/media.h"
@@ -33,7 +34,13 @@ struct World {
   std::vector<MajorantGrid> majorants;  ///< of each object's volume, if it varies: Findings
   Estimator estimator = Estimator::Clustered;
   Generator generator = Generator::Niederreiter;
+  std::vector<ClearBall> balls;  ///< through which lights are reached; of plain scenes only
 
+  /// The one of `balls` that an object is, or -1.
+  int ball_of(int object) const {
+    const auto at = std::ranges::find(balls, object, &ClearBall::object);
+    return at == balls.end() ? -1 : int(at - balls.begin());
+  }
   const Surface& surface_of_object(int object) const {
     return scene.surfaces[scene.objects[object].surface];
   }

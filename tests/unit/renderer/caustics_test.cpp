@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light through clear balls, beside rays that are bent by Snell's law as vectors, surface by
+// surface.
+#include "renderer/caustics.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "base/warp.h"
+#include "renderer/cluster.h"
+#include "scenes.h"
+#include "tests/sanitized.h"
+
+using namespace mms;
+using namespace mms::renderer;
+using namespace mms::renderer::test;
+
+namespace {
+
+/// The textbook's Fresnel for light that comes from air.
+double reflectance(double c, double n) {
+  const double t = std::sqrt(1 - (1 - c * c) / (n * n));
+  const double s = (c - n * t) / (c + n * t), p = (n * c - t) / (n * c + t);
+  return (s * s + p * p) / 2;
+}
+
+Vec3d refract(Vec3d d, Vec3d normal, double eta) {
+  const double c = -dot(d, normal), t2 = 1 - eta * eta * (1 - c * c);
+  return d * eta + normal * (eta * c - std::sqrt(t2));
+}
+
+/// A ray that has met a sphere of radius 1 at the origin and index n.
+struct Met {
+  bool hit = false;
+  double cosine = 0;  ///< where it enters
+  Vec3d entry, exit;
+  Vec3d direction;  ///< unit, behind the ball
+};
+
+Met meet(Vec3d from, Vec3d d, double n) {
+  const double b = dot(from, d), square = b * b - dot(from, from) + 1;
+  if (!(square > 0) || b > 0) return {};
+  Met m;
+  m.hit = true;
+  m.entry = from + d * (-b - std::sqrt(square));
+  m.cosine = -dot(d, m.entry);
+  const Vec3d inside = refract(d, m.entry, 1 / n);
+  m.exit = m.entry - inside * (2 * dot(inside, m.entry));
+  m.direction = refract(inside, m.exit * -1.0, n);
+  return m;
+}
+
+/// Two points around a ball of radius 1 and its index.
+struct Case {
+  Vec3d from, to;
+  double n;
+};
+
+Case draw(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> u(0, 1);
+  const auto point = [&] {
+    const double z = 2 * u(random) - 1, phi = 2 * kPi<double> * u(random), s = std::sqrt(1 - z * z);
+    const double far = 1.01 + std::exp(5 * u(random) - 3);
+    return Vec3d{s * std::cos(phi), s * std::sin(phi), z} * far;
+  };
+  const Vec3d from = point();
+  // Most of it lies behind the ball, where light is gathered.
+  const Vec3d to = normalize(point() * 0.7 - from) * length(point());
+  return {from, to, 1.02 + 1.5 * u(random)};
+}
+
+/// What the ground at the origin, facing +y, gets from a disc of radiance 1 through the ball before
+/// it.
+struct Ground {
+  Vec3d ball;
+  double radius, n;
+  Vec3d lamp, facing;
+  double lamp_radius;
+
+  bool lights(Vec3d from, Vec3d d) const {
+    const double down = dot(d, facing), t = dot(lamp - from, facing) / down;
+    if (!(down < 0) || !(t > 0)) return false;
+    const Vec3d off = from + d * t - lamp;
+    return dot(off, off) < lamp_radius * lamp_radius;
+  }
+
+  /// Over the cone that the ball fills, by the middle of cells.
+  double irradiance(int cells) const {
+    const double distance = length(ball), cap = 1 - std::sqrt(1 - std::pow(radius / distance, 2));
+    const Frame<double> axes = Frame<double>::around(ball / distance);
+    double sum = 0;
+    for (int i = 0; i < cells; ++i)
+      for (int k = 0; k < 4 * cells; ++k) {
+        const double z = 1 - cap * (i + 0.5) / cells, phi = kPi<double> * (k + 0.5) / (2 * cells);
+        const double s = std::sqrt(1 - z * z);
+        const Vec3d d = axes.to_world({s * std::cos(phi), s * std::sin(phi), z});
+        const Met m = meet(ball / -radius, d, n);
+        if (!m.hit || !(d.y > 0)) continue;
+        const double past = 1 - reflectance(m.cosine, n);
+        if (lights(ball + m.exit * radius, m.direction)) sum += past * past * d.y;
+      }
+    return sum * cap * 2 * kPi<double> / (4.0 * cells * cells);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("every ray through a ball is found, and goes where it says") {
+  std::mt19937_64 random(1);
+  int found = 0, pairs = 0;
+  for (int i = 0; i < (kSanitized ? 100 : 1500); ++i) {
+    const Case c = draw(random);
+    if (length(c.to) < 1.01) continue;
+    std::array<BallRay, kMostBallRays> rays;
+    const int count = rays_through({0, {}, 1}, c.n, c.from, c.to, rays);
+    found += count;
+    pairs += count > 1;
+    std::vector<double> angles;
+    const Vec3d axis = normalize(c.from), plane = normalize(cross(cross(axis, c.to), axis));
+    for (int k = 0; k < count; ++k) {
+      const Vec3d d = normalize(rays[k].entry - c.from);
+      const Met m = meet(c.from, d, c.n);
+      REQUIRE(m.hit);
+      CHECK(m.cosine == doctest::Approx(rays[k].cosine).epsilon(1e-6));
+      CHECK(length(m.exit - rays[k].exit) < 1e-6);
+      CHECK(dot(normalize(c.to - m.exit), m.direction) > 1 - 1e-11);
+      angles.push_back(std::asin(dot(d, plane)));
+    }
+    // By what side of the point rays pass it, over all that meet the ball in its plane.
+    const int steps = 4000;
+    double before = 0;
+    int crossed = 0;
+    for (int k = 1; k < steps; ++k) {
+      const double theta = kPi<double> * (double(k) / steps - 0.5);
+      const double angle = std::asin(std::sin(theta) / length(c.from));
+      const Met m = meet(c.from, axis * -std::cos(angle) + plane * std::sin(angle), c.n);
+      const Vec3d left = c.to - m.exit;
+      const double side = dot(cross(left, m.direction), cross(axis, plane));
+      crossed += k > 1 && (side > 0) != (before > 0) && dot(left, m.direction) > 0;
+      before = side;
+    }
+    // Rays next to each other, or to the rim, fall between two steps.
+    double nearest = 1;
+    for (int a = 0; a < count; ++a) nearest = std::min(nearest, rays[a].cosine);
+    for (int a = 0; a < count; ++a)
+      for (int b = 0; b < a; ++b) nearest = std::min(nearest, std::abs(angles[a] - angles[b]));
+    if (nearest > 2e-3) CHECK_MESSAGE(crossed == count, i);
+  }
+  CHECK(found > (kSanitized ? 50 : 800));
+  CHECK(pairs > (kSanitized ? 3 : 50));
+}
+
+TEST_CASE("how rays through a ball spread is the quotient of small differences") {
+  std::mt19937_64 random(2);
+  int cases = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Case c = draw(random);
+    if (length(c.to) < 1.01) continue;
+    std::array<BallRay, kMostBallRays> rays;
+    const int count = rays_through({0, {}, 1}, c.n, c.from, c.to, rays);
+    for (int k = 0; k < count; ++k) {
+      const Vec3d d = normalize(rays[k].entry - c.from);
+      const Vec3d arriving = normalize(c.to - rays[k].exit);
+      const Frame<double> around = Frame<double>::around(d);
+      const auto lands = [&](Vec3d to) {
+        const Met m = meet(c.from, normalize(to), c.n);
+        return m.exit + m.direction * (dot(c.to - m.exit, arriving) / dot(m.direction, arriving));
+      };
+      // The rim turns rays the faster the nearer they are to it.
+      if (rays[k].cosine < 0.05) continue;
+      const double h = 1e-6;
+      const Vec3d s = (lands(d + around.s * h) - lands(d - around.s * h)) / (2 * h);
+      const Vec3d t = (lands(d + around.t * h) - lands(d - around.t * h)) / (2 * h);
+      const double area = length(cross(s, t));
+      const double spread = spread_through({0, {}, 1}, c.n, c.from, c.to, rays[k].cosine);
+      REQUIRE(spread > 0);
+      const double size = length(c.from) + length(c.to);
+      CHECK(std::abs(1 / spread - area) < 1e-4 * area + 1e-5 * size * size);
+      CHECK(spread_through({0, {}, 1}, c.n, c.to, c.from, rays[k].cosine) ==
+            doctest::Approx(spread).epsilon(1e-9));
+      ++cases;
+    }
+  }
+  CHECK(cases > 200);
+}
+
+TEST_CASE("the ground behind a clear ball gets what rays through it bring") {
+  std::string script = "1.5";
+  std::function<double(double)> index = [](double) { return 1.5; };
+  int cells = kSanitized ? 200 : 800;
+  SUBCASE("of glass") {}
+  SUBCASE("of glass that disperses") {
+    script = "1.35 + 5e-14 / ($wavelength * $wavelength)";
+    index = [](double nm) { return 1.35 + 5e-14 / (nm * nm * 1e-18); };
+    cells /= 8;
+  }
+  const vm::Program p = compile("surface s bsdf = dielectric(" + script + "); end\n");
+  for (const double lamp_radius : {0.05, 0.6}) {
+    const Vec3d ball{0.45, 0.5, 0}, facing = normalize(Vec3d{-1, -1.2, 0.05});
+    const double radius = 0.35;
+    const Vec3d lamp = facing * -2.5;
+    const Scene s =
+        scene_of(p, fmt::format(R"({{"camera": {{"position": [0, 1.2, 0], "target": [0, 0, 0],
+      "up": [0, 0, -1], "fov": 0.01}},
+      "materials": {{"lamp": {{"matte": 0, "emission": 2}}, "ground": {{"matte": 0.5}}}},
+      "objects": [{{"quad": {{"corner": [-1, 0, 1], "u": [2, 0, 0], "v": [0, 0, -2]}},
+      "surface": "ground"}},
+      {{"sphere": {{"center": [{}, {}, {}], "radius": {}}}, "test": true}},
+      {{"disc": {{"center": [{}, {}, {}], "normal": [{}, {}, {}], "radius": {}}},
+      "surface": "lamp"}}]}})",
+                                ball.x, ball.y, ball.z, radius, lamp.x, lamp.y, lamp.z, facing.x,
+                                facing.y, facing.z, lamp_radius));
+    CAPTURE(lamp_radius);
+    RenderOptions o = options(16, kSanitized ? 64 : 1024);
+    o.max_depth = 2;  // the ground and one side of the ball
+    CHECK(mean_luminance(run(p, s, o).film).value == 0);
+
+    constexpr int kClusters = 8;
+    double expected = 0, at = 0, irradiance = 0;
+    for (int c = 0; c < kClusters; ++c) {
+      const Cluster cluster = sample_cluster((c + 0.5) / kClusters);
+      Spectrumf light;
+      for (int k = 0; k < kWavelengths; ++k) {
+        const double n = index(cluster.lambda.nm[k]);
+        if (n != at)
+          irradiance = Ground{ball, radius, n, lamp, facing, lamp_radius}.irradiance(cells);
+        at = n;
+        light[k] = float(irradiance * 2 * 0.5 / kPi<double>);
+      }
+      expected += cluster.xyz(light * cluster.light({1, 1, 1}))[1] / (kClusters * kWavelengths);
+    }
+    o.max_depth = 3;
+    const Mean m = mean_luminance(run(p, s, o).film);
+    INFO("mean ", m.value, " +- ", m.error, ", expected ", expected);
+    // Cells cut the lamp's edge to about a thousandth, and so near are the clusters' colours.
+    CHECK(std::abs(m.value - expected) < 4 * m.error + 2e-3 * expected);
+    CHECK(m.error < 0.005 * expected);
+  }
+}
