@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "materials/dielectric.h"
+#include "materials/bsdf.h"
 
 namespace mms::renderer {
 namespace {
@@ -14,29 +14,34 @@ constexpr double kTurn = 2 * kPi<double>, kQuarter = kPi<double> / 2;
 /// More are left to chance: each takes its time for every light that is drawn.
 constexpr std::size_t kMostBalls = 4;
 
+/// Endless, in radii: a ray is then off by as little as a double is.
+constexpr double kFar = 1e8;
+
 /// Below this index hardly anything is bent.
 constexpr float kLeastIndex = 1.01f;
 
 /// How far rays turn about the centre between their ends.
 struct Turn {
   double from, to;  ///< radius over the distances of the ends
+  int chords;       ///< inside: 1 if it goes through
   double dense;     ///< 1 / index
 
   double angle(double theta, double s) const {
-    return kPi<double> + 2 * theta - std::asin(from * s) - std::asin(to * s) -
-           2 * std::asin(dense * s);
+    return 2 * theta - std::asin(from * s) - std::asin(to * s) + inside(s);
   }
+  double inside(double s) const { return chords > 0 ? kPi<double> - 2 * std::asin(dense * s) : 0; }
   /// Its derivative, of the sine and cosine of theta.
   double slope(double s, double c) const {
     const auto part = [&](double k) { return k * c / cosine(k * s); };
-    return 2 - part(from) - part(to) - 2 * part(dense);
+    return 2 - part(from) - part(to) - (chords > 0 ? 2 * part(dense) : 0);
   }
   static double cosine(double sine) { return std::sqrt((1 - sine) * (1 + sine)); }
 
-  /// No turn is less: where the tangents at both ends of [0, pi / 2] meet.
-  double least(double last) const {
+  double last() const { return angle(kQuarter, 1); }
+  /// No turn of a ray through is less: where the tangents at both ends of [0, pi / 2] meet.
+  double least() const {
     const double fall = std::max(0.0, from + to + 2 * dense - 2);
-    return kPi<double> - fall * std::max(0.0, kTurn - last) / (2 + fall);
+    return kPi<double> - fall * std::max(0.0, kTurn - last()) / (2 + fall);
   }
 
   /// Where it is `target`, by Newton's method from an end of the interval where it is more: being
@@ -58,21 +63,26 @@ struct Turn {
 
 }  // namespace
 
-BallGlass::BallGlass(const float* params) {
-  const materials::Dielectric<float> glass(params);
-  if (!glass.specular() || !(glass.ior[0] > kLeastIndex)) return;
-  index = glass.ior[0];
-  for (int k = 0; k < kWavelengths; ++k)
-    transmitted[k] = glass.ior[k] == index ? glass.transmitted[k] : 0;
+BallOptics::BallOptics(const materials::Layout& layout, const float* params) {
+  if (!materials::Bsdf<float>(layout, params).specular_only()) return;
+  mirrors = layout.reflects();
+  if (layout.transmits()) index = params[0] > kLeastIndex ? params[0] : 0;
 }
 
-Spectrumf BallGlass::carried(double cosine) const {
-  const Spectrumf once = transmitted * materials::fresnel_split(float(cosine), index).transmitted;
-  return once * once;
+BallShare share_of(const ClearBall& ball, const float* params, const BallRay& ray) {
+  constexpr float kLast = 1 - 0x1p-24f;  // to let light through is the last that a lobe may do
+  const Vec3f view{float(Turn::cosine(ray.cosine)), 0, float(ray.cosine)};
+  const auto s = materials::Bsdf<float>(*ball.layout, params)
+                     .sample(view, ray.through ? kLast : 0, 0, 0, materials::Mode::Importance);
+  if (!s || s->transmitted != ray.through) return {};
+  // What narrows radiance on the way in widens it on the way out.
+  const Spectrumf once = s->f * std::abs(s->wi.z);
+  return {ray.through ? once * once : once,
+          Spectrumf::map([](float p) { return p > 0 ? 1.0f : 0.0f; }, s->pdf)};
 }
 
-int rays_through(const ClearBall& ball, double index, Vec3d from, Vec3d to,
-                 std::span<BallRay, kMostBallRays> rays) {
+int rays_by(const ClearBall& ball, const BallOptics& optics, Vec3d from, Vec3d to,
+            std::span<BallRay, kMostBallRays> rays) {
   const Vec3d a = from - ball.centre, b = to - ball.centre;
   const double da = length(a), db = length(b);
   if (!(std::min(da, db) > ball.radius * (1 + 1e-9))) return 0;
@@ -82,45 +92,68 @@ int rays_through(const ClearBall& ball, double index, Vec3d from, Vec3d to,
   const double off = length(rest);
   if (!(off > 1e-12 * db)) return 0;  // all round the axis, if at all
   const double between = std::atan2(off, along);
-  const Turn turn{ball.radius / da, ball.radius / db, 1 / index};
-  const double last = kTurn - std::asin(turn.from) - std::asin(turn.to) - 2 * std::asin(turn.dense);
 
   int count = 0;
   // `side`: of the plane, as seen along the axis; the other one is across it.
-  const auto add = [&](std::optional<double> theta, double side) {
+  const auto add = [&](const Turn& turn, std::optional<double> theta, double side) {
     if (!theta) return;
     const double s = std::sin(*theta), first = *theta - std::asin(turn.from * s);
-    const double second = first + kPi<double> - 2 * std::asin(turn.dense * s);
     const auto at = [&](double angle) {
       return ball.centre +
              (axis * std::cos(angle) + rest * (side / off * std::sin(angle))) * ball.radius;
     };
-    rays[count++] = {std::cos(*theta), at(first), at(second)};
+    rays[count++] = {turn.chords > 0, std::cos(*theta), at(first), at(first + turn.inside(s))};
   };
-  if (between > turn.least(last)) {
-    add(turn.solve(between, 0), 1);
-    if (between < last) add(turn.solve(between, kQuarter), 1);
+  Turn turn{ball.radius / da, ball.radius / db, 0, 1};
+  if (optics.mirrors && between < turn.last()) add(turn, turn.solve(between, kQuarter), 1);
+  if (!(optics.index > 0)) return count;
+  turn.chords = 1;
+  turn.dense = 1 / double(optics.index);
+  const double last = turn.last();
+  if (between > turn.least()) {
+    add(turn, turn.solve(between, 0), 1);
+    if (between < last) add(turn, turn.solve(between, kQuarter), 1);
   }
-  if (kTurn - between < last) add(turn.solve(kTurn - between, kQuarter), -1);
+  if (kTurn - between < last) add(turn, turn.solve(kTurn - between, kQuarter), -1);
   return count;
 }
 
-double spread_through(const ClearBall& ball, double index, Vec3d from, Vec3d to, double cosine) {
-  const Vec3d a = from - ball.centre, b = to - ball.centre;
-  const double da = length(a), db = length(b), sine = Turn::cosine(cosine);
-  const Turn turn{ball.radius / da, ball.radius / db, 1 / index};
-  const double down = length(cross(a, b)) * da * db * Turn::cosine(turn.from * sine) *
-                      Turn::cosine(turn.to * sine) * std::abs(turn.slope(sine, cosine));
-  return down > 0 ? ball.radius * ball.radius * sine * cosine / down : 0;
+double mirror_share(const ClearBall& ball, Vec3d from) {
+  const Vec3d a = from - ball.centre;
+  const double much = ball.layout->transmits() ? 0.5 : 2;
+  return std::min(1.0, much * ball.radius * ball.radius / dot(a, a));
 }
 
-double density_through(const ClearBall& ball, double index, Vec3d from, const SurfacePoint& to,
-                       double straight, Vec3d back, double cosine) {
-  const Vec3d way = from - to.position;
-  const double d2 = dot(way, way), spread = spread_through(ball, index, from, to.position, cosine);
-  const double shown = std::abs(dot(to.geometric_normal, back)) * spread;
+double spread_by(const ClearBall& ball, const BallWay& way, Vec3d from, Vec3d to) {
+  const Vec3d a = from - ball.centre, b = to - ball.centre;
+  const double da = length(a), db = length(b), sine = Turn::cosine(way.cosine);
+  const Turn turn{ball.radius / da, ball.radius / db, int(way.through), 1 / way.index};
+  const double down = length(cross(a, b)) * da * db * Turn::cosine(turn.from * sine) *
+                      Turn::cosine(turn.to * sine) * std::abs(turn.slope(sine, way.cosine));
+  return down > 0 ? ball.radius * ball.radius * sine * way.cosine / down : 0;
+}
+
+double density_by(const ClearBall& ball, const BallWay& way, Vec3d from, const SurfacePoint& to,
+                  double straight, Vec3d back) {
+  const Vec3d line = from - to.position;
+  const double d2 = dot(line, line);
+  const double shown =
+      std::abs(dot(to.geometric_normal, back)) * spread_by(ball, way, from, to.position);
   if (!(shown > 0)) return 0;
-  return straight * std::abs(dot(to.geometric_normal, way)) / (d2 * std::sqrt(d2)) / shown;
+  if (!way.through) straight *= mirror_share(ball, from);
+  return straight * std::abs(dot(to.geometric_normal, line)) / (d2 * std::sqrt(d2)) / shown;
+}
+
+Vec3d far_point(const ClearBall& ball, Vec3d direction) {
+  return ball.centre + direction * (kFar * ball.radius);
+}
+
+double far_density_by(const ClearBall& ball, const BallWay& way, Vec3d from, Vec3d direction,
+                      double straight) {
+  const double spread = spread_by(ball, way, from, far_point(ball, direction));
+  const double far = kFar * ball.radius;
+  if (!way.through) straight *= mirror_share(ball, from);
+  return spread > 0 ? straight / (spread * far * far) : 0;
 }
 
 std::vector<ClearBall> clear_balls(const SceneData& scene, const Compiled& compiled) {
@@ -132,9 +165,11 @@ std::vector<ClearBall> clear_balls(const SceneData& scene, const Compiled& compi
     if (!sphere || !d) continue;
     const CompiledDescriptor& c = compiled.of(d);
     const auto nodes = c.material.nodes();
-    if (c.placeless_material && !c.bumps && nodes.size() == 1 &&
-        nodes[0].lobe == materials::Lobe::Dielectric)
-      balls.push_back({i, sphere->centre, sphere->radius});
+    if (!c.placeless_material || c.bumps || nodes.size() != 1) continue;
+    if (!c.material.has_specular()) continue;
+    // Of what lets light through it is known of one how rays go.
+    if (!c.material.transmits() || nodes[0].lobe == materials::Lobe::Dielectric)
+      balls.push_back({i, sphere->centre, sphere->radius, &c.material});
   }
   return balls;
 }

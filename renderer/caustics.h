@@ -2,16 +2,17 @@
 #pragma once
 
 /// \file
-/// Rays that go through a clear ball from one point to another. A light drawn for a vertex is
-/// reached through the ball as well as straight: else only scattering finds it there, by chance,
-/// and what the ball focuses is most of the noise of the picture.
+/// Rays that a polished ball mirrors, or a clear one lets through, from one point to another. A
+/// light drawn for a vertex is reached by way of the ball as well as straight: else only scattering
+/// finds it there, by chance, and what the ball gathers is most of the noise of the picture.
 ///
 /// It is next event estimation past specular vertices (Hanika, Droske and Fascione 2015), with all
 /// of the way in closed form but one angle. A ray keeps to a plane with the centre. With theta its
-/// angle to the normal where it enters and leaves a ball of radius r and index n, it turns about
-/// the centre, between two points at distances a and b from there, by
+/// angle to the normal where it comes to a ball of radius r and index n and where it leaves, and
+/// c = 1 for a ray that goes through or 0 for one that is mirrored, it turns about the centre,
+/// between two points at distances a and b from there, by
 ///
-///   pi + 2 theta - 2 asin(sin(theta) / n) - asin(r sin(theta) / a) - asin(r sin(theta) / b),
+///   2 theta - asin(r sin(theta) / a) - asin(r sin(theta) / b) + c (pi - 2 asin(sin(theta) / n)),
 ///
 /// which is convex over theta in [0, pi / 2] for n > 1, so that every ray is found.
 
@@ -22,47 +23,71 @@
 
 namespace mms::renderer {
 
-/// A sphere of one `dielectric` that is the same all over.
+/// A sphere of one lobe, the same all over, that only mirrors and bends.
 struct ClearBall {
   int object = -1;  ///< index into SceneData::objects
   Vec3d centre;
   double radius = 1;
+  const materials::Layout* layout = nullptr;
 };
 
-/// What it is made of, for the wavelengths of one path.
-struct BallGlass {
-  float index = 0;        ///< the hero's, inside over outside; 0: no ray is looked for
-  Spectrumf transmitted;  ///< tint; 0 for a wavelength that is not bent as the hero is
+/// What rays are looked for at a ball, for the wavelengths of one path.
+struct BallOptics {
+  bool mirrors = false;
+  float index = 0;  ///< of rays through: the hero's, inside over outside; 0: there are none
 
-  BallGlass() = default;
-  /// From the numbers of the `dielectric`.
-  explicit BallGlass(const float* params);
-  /// The share of light that Fresnel's factor and the tint leave to a ray.
-  Spectrumf carried(double cosine) const;
+  BallOptics() = default;
+  /// From the numbers of the layout.
+  BallOptics(const materials::Layout& layout, const float* params);
+
+  bool any() const { return mirrors || index > 0; }
 };
 
-/// A ray through a ball.
+/// A ray by way of a ball.
 struct BallRay {
-  double cosine = 0;  ///< to the normal, where it enters and where it leaves
-  Vec3d entry, exit;
+  bool through = false;  ///< else mirrored
+  double cosine = 0;     ///< to the normal, where it comes and where it leaves
+  Vec3d entry, exit;     ///< the same of one that is mirrored
 };
-inline constexpr int kMostBallRays = 3;
+inline constexpr int kMostBallRays = 4;
 
-/// All rays from `from` to `to`, two points outside, through `ball`; their number.
-int rays_through(const ClearBall& ball, double index, Vec3d from, Vec3d to,
-                 std::span<BallRay, kMostBallRays> rays);
+/// What becomes of light along such a ray.
+struct BallShare {
+  Spectrumf f;         ///< what is left of radiance
+  Spectrumf possible;  ///< 1 for a wavelength that may go the hero's way, else 0
+};
+BallShare share_of(const ClearBall& ball, const float* params, const BallRay& ray);
 
-/// How such a ray spreads: steradians at one end for each m^2 across it at the other, the same both
-/// ways. 0 where it is not known, the points and the centre on a line.
-double spread_through(const ClearBall& ball, double index, Vec3d from, Vec3d to, double cosine);
+/// All rays from `from` to `to`, two points outside, by way of `ball`; their number.
+int rays_by(const ClearBall& ball, const BallOptics& optics, Vec3d from, Vec3d to,
+            std::span<BallRay, kMostBallRays> rays);
 
-/// Density, per steradian at `from`, of drawing a light's point `to` and going there through the
+/// What a ray spreads by: how it went, and between what points.
+struct BallWay {
+  bool through = false;
+  double index = 1, cosine = 0;
+};
+
+/// The share of mirrored rays that are worth looking for from a point: a ball far off sends little.
+double mirror_share(const ClearBall& ball, Vec3d from);
+
+/// Steradians at one end for each m^2 across the ray at the other, the same both ways. 0 where it
+/// is not known, the points and the centre on a line.
+double spread_by(const ClearBall& ball, const BallWay& way, Vec3d from, Vec3d to);
+
+/// Density, per steradian at `from`, of drawing a light's point `to` and going there by way of the
 /// ball; `straight` is the density of the direction in which the point lies. `back`: unit, from
 /// there to the ball.
-double density_through(const ClearBall& ball, double index, Vec3d from, const SurfacePoint& to,
-                       double straight, Vec3d back, double cosine);
+double density_by(const ClearBall& ball, const BallWay& way, Vec3d from, const SurfacePoint& to,
+                  double straight, Vec3d back);
 
-/// The clear balls of a scene, or the first few.
+/// A point that stands for what lies endlessly far along a unit `direction`.
+Vec3d far_point(const ClearBall& ball, Vec3d direction);
+/// The density likewise of light from endlessly far along `direction`.
+double far_density_by(const ClearBall& ball, const BallWay& way, Vec3d from, Vec3d direction,
+                      double straight);
+
+/// Such balls of a scene, or the first few.
 std::vector<ClearBall> clear_balls(const SceneData& scene, const Compiled& compiled);
 
 }  // namespace mms::renderer

@@ -49,14 +49,17 @@ struct Coefficients {
   Spectrumf emission;                ///< W m^-3 sr^-1 nm^-1
 };
 
-/// Of a path that goes on through a clear ball (renderer/caustics.h): where it left the vertex
+/// Of a path that goes on by way of a ball (renderer/caustics.h): where it left the vertex
 /// before, from where light can be drawn that comes the same way.
 struct Detour {
   int ball = -1;           ///< index into World::balls; -1: on no such way
+  bool through = false;    ///< else mirrored
   bool inside = false;     ///< has not left the ball yet
   float cosine = 0;        ///< to the normal, where it entered
   Vec3f origin, receiver;  ///< of the flight that came to the ball
   int draws = 0;           ///< likewise
+
+  Receiver left() const { return {Vec3d(origin), Vec3d(receiver), draws}; }
 };
 
 struct Flight {

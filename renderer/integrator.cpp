@@ -46,6 +46,9 @@ constexpr std::size_t kTogetherUnasked = 256;
 /// Share of them that is left for the next time, lest few long ways hold up the rest.
 constexpr double kLeftFlying = 0.5;
 
+/// Numbers for balls' mirrored rays, beside the streams of flights.
+constexpr std::uint32_t kMirrorStream = 0xffffffff;
+
 /// `matte`: what a surface of the scene scatters by, and the default of a script that gave up.
 const materials::Layout& matte_layout() {
   static const materials::Layout layout(
@@ -168,7 +171,8 @@ void Integrator::trace(std::span<const PixelSample> samples, std::span<FilmSampl
   paths_.clear();
   views_.clear();
   now_.clear();
-  glasses_.resize(samples.size() * world_.balls.size());
+  optics_.resize(samples.size() * world_.balls.size());
+  ball_params_.resize(optics_.size() * std::size_t(world_.compiled.max_params()));
   std::size_t started = 0;
   const std::size_t together = world_.compiled.executable() ? kTogether : kTogetherUnasked;
   for (;;) {
@@ -259,8 +263,8 @@ void Integrator::gather() {
       arrived_.push_back({kind, &f});
     } else if (f.end == End::Free && f.errand == Errand::Path) {
       const Vec3d d(f.direction);
-      const double light = f.detour.ball < 0 ? world_.lights.pdf_environment(f.left(), d) : 0;
-      const Spectrumf weight = f.carried.weighted(Technique::Scattering, light, world_.estimator);
+      const Spectrumf weight =
+          f.carried.weighted(Technique::Scattering, environment_density(f, d), world_.estimator);
       p.radiance += weight * world_.lights.environment(d, p.cluster);
     }
   }
@@ -288,10 +292,17 @@ double Integrator::light_density(const Vertex& v) const {
   const int object = v.from->hit.object;
   if (d.ball < 0) return world_.lights.pdf(v.from->left(), object, v.point.surface);
   if (d.inside) return 0;
-  const Receiver receiver(Vec3d(d.origin), Vec3d(d.receiver), d.draws);
-  const double straight = world_.lights.pdf(receiver, object, v.point.surface);
-  return density_through(world_.balls[d.ball], glass(v.from->path, d.ball).index, receiver.position,
-                         v.point.surface, straight, v.point.view, d.cosine);
+  return density_by(world_.balls[d.ball], way(v.from->path, d), Vec3d(d.origin), v.point.surface,
+                    world_.lights.pdf(d.left(), object, v.point.surface), v.point.view);
+}
+
+/// The same of the environment, for a flight that has left the scene.
+double Integrator::environment_density(const Flight& f, Vec3d direction) const {
+  const Detour& d = f.detour;
+  if (d.ball < 0) return world_.lights.pdf_environment(f.left(), direction);
+  if (d.inside) return 0;
+  return far_density_by(world_.balls[d.ball], way(f.path, d), Vec3d(d.origin), direction,
+                        world_.lights.pdf_environment(d.left(), direction));
 }
 
 /// One batch: vertices that wear the same surface or lie in volumes of the same descriptor.
@@ -476,30 +487,31 @@ void Integrator::connect(const Vertex& v, const Scatterer& s, int draws) {
   }
 }
 
-/// What is known of the way through a clear ball, if a path goes on along one.
+/// What is known of the way by a ball, if a path goes on along one.
 Detour Integrator::detour(const Vertex& v, const Sampled& sampled) const {
   if (!sampled.specular || world_.balls.empty()) return {};
   const Flight& f = *v.from;
   const int ball = world_.ball_of(f.hit.object);
+  if (ball < 0) return {};
   const Vec3d n = v.point.surface.geometric_normal;
   const double in = dot(v.point.view, n);
-  if (ball < 0 || (dot(sampled.wi, n) < 0) != (in > 0)) return {};
-  if (!(glass(f.path, ball).index > 0)) return {};
+  const bool crosses = (dot(sampled.wi, n) < 0) == (in > 0);
   Detour d = f.detour;
   if (in > 0) {
-    const bool scattered = d.ball < 0 && f.carried.light_pdf.max() > 0;
-    return scattered ? Detour{ball, true, float(in), f.origin, f.receiver, f.draws} : Detour();
+    const BallOptics& optics = optics_[at_ball(f.path, ball)];
+    const bool known = crosses ? optics.index > 0 : optics.mirrors;
+    if (!known || d.ball >= 0 || !(f.carried.light_pdf.max() > 0)) return {};
+    return {ball, crosses, crosses, float(in), f.origin, f.receiver, f.draws};
   }
-  if (d.ball != ball || !d.inside) return {};
+  if (d.ball != ball || !d.inside || !crosses) return {};
   d.inside = false;
   return d;
 }
 
-/// Makes the shadow rays to a point of a light: straight, and through clear balls.
+/// Makes the shadow rays to a point of a light: straight, and by way of balls.
 void Integrator::connect(const Vertex& v, const Scatterer& s, const LightSample& light) {
   if (!(light.pdf > 0)) return;
-  if (light.object != kEnvironment)
-    for (int ball = 0; ball < int(world_.balls.size()); ++ball) connect_through(ball, v, s, light);
+  for (int ball = 0; ball < int(world_.balls.size()); ++ball) connect_by(ball, v, s, light);
   Flight f = *v.from;
   if (!s.medium) follow(f, v, light.direction);
   if (world_.sealed_in(f.media)) return;
@@ -508,32 +520,50 @@ void Integrator::connect(const Vertex& v, const Scatterer& s, const LightSample&
   send_to_light(f, v, s.evaluate(v.point, light.direction), light, origin);
 }
 
-/// The shadow rays that go through a ball: first to where they leave it.
-void Integrator::connect_through(int i, const Vertex& v, const Scatterer& s,
-                                 const LightSample& light) {
-  const BallGlass& glass = this->glass(v.from->path, i);
-  if (!(glass.index > 0) || paths_[v.from->path].depth + 2 > world_.max_depth) return;
-  const ClearBall& ball = world_.balls[std::size_t(i)];
-  const Vec3d from = v.point.surface.position, to = light.surface.position;
+/// The shadow rays that go by way of a ball: first to where they leave it.
+void Integrator::connect_by(int number, const Vertex& v, const Scatterer& s,
+                            const LightSample& light) {
+  const std::size_t at = at_ball(v.from->path, number);
+  BallOptics optics = optics_[at];
+  const ClearBall& ball = world_.balls[std::size_t(number)];
+  if (optics.mirrors) {
+    Path& p = paths_[v.from->path];
+    optics.mirrors =
+        p.sampler.hashed(kMirrorStream, p.mirrors++) < mirror_share(ball, v.point.surface.position);
+  }
+  if (!optics.any()) return;
+  const Sphere sphere{ball.centre, ball.radius};
+  const bool far = light.object == kEnvironment;
+  const Vec3d from = v.point.surface.position,
+              to = far ? far_point(ball, light.direction) : light.surface.position;
   std::array<BallRay, kMostBallRays> rays;
-  const int count = rays_through(ball, glass.index, from, to, rays);
+  const int count = rays_by(ball, optics, from, to, rays);
   for (const BallRay& ray : std::span(rays).first(std::size_t(count))) {
-    const Vec3d direction = normalize(ray.entry - from), inside = ray.exit - ray.entry;
+    const int events = ray.through ? 2 : 1;
+    if (paths_[v.from->path].depth + events > world_.max_depth) continue;
+    const Vec3d direction = normalize(ray.entry - from);
     Sampled towards = s.evaluate(v.point, direction);
-    const Spectrumf carried = glass.carried(ray.cosine);
-    towards.f *= carried;
+    if (towards.f.is_black()) continue;
+    const BallShare share =
+        share_of(ball, &ball_params_[at * std::size_t(world_.compiled.max_params())], ray);
+    towards.f *= share.f;
+    const BallWay way{ray.through, optics.index, ray.cosine};
     LightSample beyond = light;
-    beyond.direction = normalize(to - ray.exit);
-    beyond.pdf = density_through(ball, glass.index, from, light.surface, light.pdf,
-                                 -beyond.direction, ray.cosine);
+    if (far) {
+      beyond.pdf = far_density_by(ball, way, from, light.direction, light.pdf);
+    } else {
+      beyond.direction = normalize(to - ray.exit);
+      beyond.pdf = density_by(ball, way, from, light.surface, light.pdf, -beyond.direction);
+    }
     if (towards.f.is_black() || !(beyond.pdf > 0)) continue;
-    const Sphere sphere{ball.centre, ball.radius};
     const SurfacePoint entry = place_at(sphere, ray.entry), exit = place_at(sphere, ray.exit);
-    if (!flights_.open(ray_origin(v.point.surface, direction), ray_origin(entry, -direction)) ||
-        !flights_.open(ray_origin(entry, inside), ray_origin(exit, -inside)))
+    if (!flights_.open(ray_origin(v.point.surface, direction), ray_origin(entry, -direction)))
+      continue;
+    const Vec3d inside = ray.exit - ray.entry;
+    if (ray.through && !flights_.open(ray_origin(entry, inside), ray_origin(exit, -inside)))
       continue;
     Flight f = *v.from;
-    f.carried.pdf *= possible(carried);
+    f.carried.pdf *= share.possible;
     send_to_light(f, v, towards, beyond, ray_origin(exit, beyond.direction));
   }
 }

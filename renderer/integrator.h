@@ -46,6 +46,7 @@ class Integrator {
     int sample = 0;        ///< which of those to be traced
     int parent = -1;       ///< path that this one branched off, or -1
     int specular = 0;      ///< vertices so far that only mirror and bend
+    std::uint32_t mirrors = 0;  ///< counts its numbers for whether a ball's mirrored ray is sought
   };
   /// A point of a path where it is scattered.
   struct Vertex {
@@ -83,14 +84,19 @@ class Integrator {
   void follow(Flight& f, const Vertex& v, Vec3d direction) const;
   void connect(const Vertex& v, const Scatterer& s, int draws);
   void connect(const Vertex& v, const Scatterer& s, const LightSample& light);
-  void connect_through(int ball, const Vertex& v, const Scatterer& s, const LightSample& light);
+  void connect_by(int ball, const Vertex& v, const Scatterer& s, const LightSample& light);
   void send_to_light(Flight f, const Vertex& v, const Sampled& towards, const LightSample& light,
                      Vec3f origin);
   Detour detour(const Vertex& v, const Sampled& sampled) const;
   double light_density(const Vertex& v) const;
+  double environment_density(const Flight& f, Vec3d direction) const;
   void ask_balls(std::size_t first);
-  const BallGlass& glass(int path, int ball) const {
-    return glasses_[std::size_t(paths_[path].sample) * world_.balls.size() + std::size_t(ball)];
+  /// Of `optics_`, and times their size of `ball_params_`.
+  std::size_t at_ball(int path, int ball) const {
+    return std::size_t(paths_[path].sample) * world_.balls.size() + std::size_t(ball);
+  }
+  BallWay way(int path, const Detour& d) const {
+    return {d.through, optics_[at_ball(path, d.ball)].index, d.cosine};
   }
   void ask_emitters();
   void send_shadow_rays();
@@ -111,7 +117,8 @@ class Integrator {
   std::vector<ScriptPoint> light_points_;
   std::vector<const ScriptPoint*> lanes_;
   std::vector<float> params_, scratch_;
-  std::vector<BallGlass> glasses_;  ///< of each sample's wavelengths, ball after ball
+  std::vector<BallOptics> optics_;  ///< of each sample's wavelengths, ball after ball
+  std::vector<float> ball_params_;  ///< what the balls scatter by, likewise
 };
 
 }  // namespace mms::renderer

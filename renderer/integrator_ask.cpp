@@ -16,7 +16,7 @@ void Integrator::ask_surroundings() {
   surroundings_.ask(places_);
 }
 
-/// Asks what clear balls are made of for the wavelengths of the paths from `first` on.
+/// Asks what balls scatter by for the wavelengths of the paths from `first` on.
 void Integrator::ask_balls(std::size_t first) {
   const std::size_t balls = world_.balls.size();
   const auto batch = [&](std::size_t ball, std::size_t from, std::size_t to) {
@@ -31,13 +31,12 @@ void Integrator::ask_balls(std::size_t first) {
       lanes_.push_back(&q);
     }
     scripts_.run(d, EntryKind::Shade, lanes_);
-    params_.resize(std::max(params_.size(), std::size_t(world_.compiled.max_params())));
     for (std::size_t i = from; i < to; ++i) {
-      BallGlass& glass = glasses_[std::size_t(paths_[i].sample) * balls + ball];
-      glass = {};
+      const std::size_t at = at_ball(int(i), int(ball)), stride = world_.compiled.max_params();
+      optics_[at] = {};
       if (scripts_.given_up(int(i - from))) continue;
-      scripts_.params(d.shade.material, int(i - from), params_.data());
-      glass = BallGlass(params_.data());
+      scripts_.params(d.shade.material, int(i - from), &ball_params_[at * stride]);
+      optics_[at] = {*world_.balls[ball].layout, &ball_params_[at * stride]};
     }
   };
   const std::size_t width = std::size_t(scripts_.width());
