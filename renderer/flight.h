@@ -49,19 +49,6 @@ struct Coefficients {
   Spectrumf emission;                ///< W m^-3 sr^-1 nm^-1
 };
 
-/// Of a path that goes on by way of a ball (renderer/caustics.h): where it left the vertex
-/// before, from where light can be drawn that comes the same way.
-struct Detour {
-  int ball = -1;           ///< index into World::balls; -1: on no such way
-  bool through = false;    ///< else mirrored
-  bool inside = false;     ///< has not left the ball yet
-  float cosine = 0;        ///< to the normal, where it entered
-  Vec3f origin, receiver;  ///< of the flight that came to the ball
-  int draws = 0;           ///< likewise
-
-  Receiver left() const { return {Vec3d(origin), Vec3d(receiver), draws}; }
-};
-
 struct Flight {
   Vec3f origin, direction;
   Vec3f receiver;  ///< normal of the Receiver that it left as a scattered ray
@@ -72,12 +59,11 @@ struct Flight {
   bool emission_seen = false;  ///< of the crossing that `hit` is
   float t = 0;                 ///< how far it has come
   float t_max = 0;             ///< how far it goes at most
-  Detour detour;
-  Hit hit;                   ///< the opaque surface at its end
-  int next = 0;              ///< crossing to come
-  std::uint32_t step = 0;    ///< counts its random numbers
-  std::uint32_t stream = 0;  ///< tells them from those of other flights of the path
-  double light_density = 0;  ///< of a shadow ray: with which its light was drawn, 1/sr
+  Hit hit;                     ///< the opaque surface at its end
+  int next = 0;                ///< crossing to come
+  std::uint32_t step = 0;      ///< counts its random numbers
+  std::uint32_t stream = 0;    ///< tells them from those of other flights of the path
+  double light_density = 0;    ///< of a shadow ray: with which its light was drawn, 1/sr
   Media media;
   Carried carried;
   int medium = -1;     ///< object whose volume is asked, or scattered it

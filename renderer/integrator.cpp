@@ -288,7 +288,7 @@ void Integrator::add_emission(const Vertex& v, const Spectrumf& emitted) {
 /// Density, per steradian, of drawing the light that a path has met at `v` from where it was last
 /// scattered, by the way that it took.
 double Integrator::light_density(const Vertex& v) const {
-  const Detour& d = v.from->detour;
+  const Detour& d = paths_[v.from->path].detour;
   const int object = v.from->hit.object;
   if (d.ball < 0) return world_.lights.pdf(v.from->left(), object, v.point.surface);
   if (d.inside) return 0;
@@ -298,7 +298,7 @@ double Integrator::light_density(const Vertex& v) const {
 
 /// The same of the environment, for a flight that has left the scene.
 double Integrator::environment_density(const Flight& f, Vec3d direction) const {
-  const Detour& d = f.detour;
+  const Detour& d = paths_[f.path].detour;
   if (d.ball < 0) return world_.lights.pdf_environment(f.left(), direction);
   if (d.inside) return 0;
   return far_density_by(world_.balls[d.ball], way(f.path, d), Vec3d(d.origin), direction,
@@ -437,8 +437,9 @@ Flight* Integrator::leave(const Vertex& v, const Scatterer& s, const Sampled& sa
   Flight f = *v.from;
   f.path = path;
   // The same vertex lit by a light drawn with density 1 has the density of the path up to here.
-  f.detour = detour(v, sampled);
-  if (f.detour.ball >= 0)
+  Detour& detour = paths_[path].detour;
+  detour = next_detour(v, sampled);
+  if (detour.ball >= 0)
     f.carried.light_pdf *= possible(sampled.pdf);
   else
     f.carried.light_pdf = sampled.specular ? Spectrumf(0.0f) : v.from->carried.pdf;
@@ -488,7 +489,7 @@ void Integrator::connect(const Vertex& v, const Scatterer& s, int draws) {
 }
 
 /// What is known of the way by a ball, if a path goes on along one.
-Detour Integrator::detour(const Vertex& v, const Sampled& sampled) const {
+Integrator::Detour Integrator::next_detour(const Vertex& v, const Sampled& sampled) const {
   if (!sampled.specular || world_.balls.empty()) return {};
   const Flight& f = *v.from;
   const int ball = world_.ball_of(f.hit.object);
@@ -496,7 +497,7 @@ Detour Integrator::detour(const Vertex& v, const Sampled& sampled) const {
   const Vec3d n = v.point.surface.geometric_normal;
   const double in = dot(v.point.view, n);
   const bool crosses = (dot(sampled.wi, n) < 0) == (in > 0);
-  Detour d = f.detour;
+  Detour d = paths_[f.path].detour;
   if (in > 0) {
     const BallOptics& optics = optics_[at_ball(f.path, ball)];
     const bool known = crosses ? optics.index > 0 : optics.mirrors;
@@ -570,7 +571,7 @@ void Integrator::connect_by(int number, const Vertex& v, const Scatterer& s,
 
 /// Makes the shadow ray of a vertex to a point of a light; thesis (4.15). `f`: the flight that came
 /// there. It leaves `origin`, which is elsewhere where light goes by way of something.
-void Integrator::send_to_light(Flight f, const Vertex& v, const Sampled& towards,
+void Integrator::send_to_light(Flight& f, const Vertex& v, const Sampled& towards,
                                const LightSample& light, Vec3f origin) {
   if (!(light.pdf > 0) || towards.f.is_black()) return;
   const Path& p = paths_[v.from->path];

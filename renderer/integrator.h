@@ -33,6 +33,18 @@ class Integrator {
   const FlightCounters& counters() const { return flights_.counters(); }
 
  private:
+  /// Of a path that goes on by way of a ball (renderer/caustics.h): where it left the vertex
+  /// before, from where light can be drawn that comes the same way.
+  struct Detour {
+    int ball = -1;           ///< index into World::balls; -1: on no such way
+    bool through = false;    ///< else mirrored
+    bool inside = false;     ///< has not left the ball yet
+    float cosine = 0;        ///< to the normal, where it entered
+    Vec3f origin, receiver;  ///< of the Flight that came to the ball
+    int draws = 0;           ///< likewise
+
+    Receiver left() const { return {Vec3d(origin), Vec3d(receiver), draws}; }
+  };
   struct Path {
     Sampler sampler;
     Cluster cluster;
@@ -46,6 +58,7 @@ class Integrator {
     int sample = 0;        ///< which of those to be traced
     int parent = -1;       ///< path that this one branched off, or -1
     int specular = 0;      ///< vertices so far that only mirror and bend
+    Detour detour;
     std::uint32_t mirrors = 0;  ///< counts its numbers for whether a ball's mirrored ray is sought
   };
   /// A point of a path where it is scattered.
@@ -85,9 +98,9 @@ class Integrator {
   void connect(const Vertex& v, const Scatterer& s, int draws);
   void connect(const Vertex& v, const Scatterer& s, const LightSample& light);
   void connect_by(int ball, const Vertex& v, const Scatterer& s, const LightSample& light);
-  void send_to_light(Flight f, const Vertex& v, const Sampled& towards, const LightSample& light,
+  void send_to_light(Flight& f, const Vertex& v, const Sampled& towards, const LightSample& light,
                      Vec3f origin);
-  Detour detour(const Vertex& v, const Sampled& sampled) const;
+  Detour next_detour(const Vertex& v, const Sampled& sampled) const;
   double light_density(const Vertex& v) const;
   double environment_density(const Flight& f, Vec3d direction) const;
   void ask_balls(std::size_t first);
