@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "materials/bsdf.h"
+#include "renderer/world.h"
 
 namespace mms::renderer {
 namespace {
@@ -20,28 +21,57 @@ constexpr double kFar = 1e8;
 /// Below this index hardly anything is bent.
 constexpr float kLeastIndex = 1.01f;
 
-/// How far rays turn about the centre between their ends.
+double cosine_of(double sine) { return std::sqrt(std::max(0.0, (1 - sine) * (1 + sine))); }
+
+/// Whether object `i` holds a volume that nothing else reaches into, and no light straight.
+bool alone(const SceneData& scene, const Compiled& compiled, int i) {
+  const Bounds box = bounds(scene.objects[i].shape);
+  for (int k = 0; k < int(scene.objects.size()); ++k) {
+    const Object& other = scene.objects[k];
+    if (k != i && (tracked(other) || semi_transparent(scene, compiled, other)) &&
+        overlap(box, bounds(other.shape)))
+      return false;
+  }
+  return sealed(scene, compiled, i);
+}
+
+/// How far rays turn about the centre between their ends, over theta.
 struct Turn {
-  double from, to;  ///< radius over the distances of the ends
-  int chords;       ///< inside: 1 if it goes through
-  double dense;     ///< 1 / index
+  double base, turns;
+  double from, from_weight;  ///< of asin(from sin(theta)), as it is taken away
+  double to;                 ///< likewise
+  double dense, dense_weight;
+
+  static Turn of(const ClearBall& ball, Course course, double index, double from, double to) {
+    const double k = ball.radius / from, b = ball.radius / to, dense = 1 / index;
+    switch (course) {
+      case Course::Mirrored:
+        return {0, 2, k, 1, b, 0, 0};
+      case Course::Through:
+        return {kPi<double>, 2, k, 1, b, dense, 2};
+      case Course::Out:
+        return {0, 1, k * dense, -1, b, dense, 1};
+      case Course::OutPast:
+        break;
+    }
+    return {kPi<double>, 1, k * dense, 1, b, dense, 1};
+  }
 
   double angle(double theta, double s) const {
-    return 2 * theta - std::asin(from * s) - std::asin(to * s) + inside(s);
+    return base + turns * theta - from_weight * std::asin(std::min(1.0, from * s)) -
+           std::asin(to * s) - dense_weight * std::asin(dense * s);
   }
-  double inside(double s) const { return chords > 0 ? kPi<double> - 2 * std::asin(dense * s) : 0; }
   /// Its derivative, of the sine and cosine of theta.
   double slope(double s, double c) const {
-    const auto part = [&](double k) { return k * c / cosine(k * s); };
-    return 2 - part(from) - part(to) - (chords > 0 ? 2 * part(dense) : 0);
+    const auto part = [&](double k) { return k * c / cosine_of(k * s); };
+    return turns - from_weight * part(from) - part(to) - dense_weight * part(dense);
   }
-  static double cosine(double sine) { return std::sqrt((1 - sine) * (1 + sine)); }
 
   double last() const { return angle(kQuarter, 1); }
-  /// No turn of a ray through is less: where the tangents at both ends of [0, pi / 2] meet.
+  /// None is less, where it is convex: where the tangents at both ends of [0, pi / 2] meet.
   double least() const {
-    const double fall = std::max(0.0, from + to + 2 * dense - 2);
-    return kPi<double> - fall * std::max(0.0, kTurn - last()) / (2 + fall);
+    const double fall = std::max(0.0, -slope(0, 1));
+    return base - fall * std::max(0.0, base - last() + turns * kQuarter) / (turns + fall);
   }
 
   /// Where it is `target`, by Newton's method from an end of the interval where it is more: being
@@ -59,6 +89,22 @@ struct Turn {
     }
     return {};
   }
+
+  /// The same between 0 and `end`, over which it grows, or falls, from one side of `target` to the
+  /// other.
+  double solve_within(double target, double end) const {
+    const bool grows = angle(end, std::sin(end)) > base;
+    double low = 0, high = end, theta = end / 2;
+    for (int i = 0; i < 64; ++i) {
+      const double s = std::sin(theta), over = angle(theta, s) - target;
+      ((over > 0) == grows ? high : low) = theta;
+      const double newton = theta - over / slope(s, std::cos(theta));
+      const double next = newton > low && newton < high ? newton : (low + high) / 2;
+      if (std::abs(next - theta) < 1e-10) return next;
+      theta = next;
+    }
+    return theta;
+  }
 };
 
 }  // namespace
@@ -69,15 +115,20 @@ BallOptics::BallOptics(const materials::Layout& layout, const float* params) {
   if (layout.transmits()) index = params[0] > kLeastIndex ? params[0] : 0;
 }
 
-BallShare share_of(const ClearBall& ball, const float* params, const BallRay& ray) {
+BallShare share_of(const ClearBall& ball, const float* params, const BallOptics& optics,
+                   const BallRay& ray) {
   constexpr float kLast = 1 - 0x1p-24f;  // to let light through is the last that a lobe may do
-  const Vec3f view{float(Turn::cosine(ray.cosine)), 0, float(ray.cosine)};
-  const auto s = materials::Bsdf<float>(*ball.layout, params)
-                     .sample(view, ray.through ? kLast : 0, 0, 0, materials::Mode::Importance);
-  if (!s || s->transmitted != ray.through) return {};
+  const bool mirrored = ray.course == Course::Mirrored, through = ray.course == Course::Through;
+  const double sine = cosine_of(ray.cosine), inside = sine / double(optics.index);
+  const Vec3f view = mirrored || through ? Vec3f{float(sine), 0, float(ray.cosine)}
+                                         : Vec3f{float(inside), 0, -float(cosine_of(inside))};
   // What narrows radiance on the way in widens it on the way out.
+  const auto mode = through ? materials::Mode::Importance : materials::Mode::Radiance;
+  const auto s =
+      materials::Bsdf<float>(*ball.layout, params).sample(view, mirrored ? 0 : kLast, 0, 0, mode);
+  if (!s || s->transmitted == mirrored) return {};
   const Spectrumf once = s->f * std::abs(s->wi.z);
-  return {ray.through ? once * once : once,
+  return {through ? once * once : once,
           Spectrumf::map([](float p) { return p > 0 ? 1.0f : 0.0f; }, s->pdf)};
 }
 
@@ -85,7 +136,8 @@ int rays_by(const ClearBall& ball, const BallOptics& optics, Vec3d from, Vec3d t
             std::span<BallRay, kMostBallRays> rays) {
   const Vec3d a = from - ball.centre, b = to - ball.centre;
   const double da = length(a), db = length(b);
-  if (!(std::min(da, db) > ball.radius * (1 + 1e-9))) return 0;
+  if (!(da > 0) || !(db > ball.radius * (1 + 1e-9))) return 0;
+  if (std::abs(da - ball.radius) < 1e-9 * ball.radius) return 0;
   const Vec3d axis = a / da;
   const double along = dot(b, axis);
   const Vec3d rest = b - axis * along;
@@ -94,27 +146,47 @@ int rays_by(const ClearBall& ball, const BallOptics& optics, Vec3d from, Vec3d t
   const double between = std::atan2(off, along);
 
   int count = 0;
-  // `side`: of the plane, as seen along the axis; the other one is across it.
-  const auto add = [&](const Turn& turn, std::optional<double> theta, double side) {
+  // `target` is more than a half turn for a ray on the other side of the centre.
+  const auto add = [&](Course course, const Turn& turn, std::optional<double> theta,
+                       double target) {
     if (!theta) return;
-    const double s = std::sin(*theta), first = *theta - std::asin(turn.from * s);
+    const double s = std::sin(*theta), side = target > kPi<double> ? -1 : 1;
     const auto at = [&](double angle) {
       return ball.centre +
              (axis * std::cos(angle) + rest * (side / off * std::sin(angle))) * ball.radius;
     };
-    rays[count++] = {turn.chords > 0, std::cos(*theta), at(first), at(first + turn.inside(s))};
+    const Vec3d exit = at(target - *theta + std::asin(turn.to * s));
+    const bool through = course == Course::Through;
+    rays[count++] = {course, std::cos(*theta),
+                     through ? at(*theta - std::asin(turn.from * s)) : exit, exit};
   };
-  Turn turn{ball.radius / da, ball.radius / db, 0, 1};
-  if (optics.mirrors && between < turn.last()) add(turn, turn.solve(between, kQuarter), 1);
-  if (!(optics.index > 0)) return count;
-  turn.chords = 1;
-  turn.dense = 1 / double(optics.index);
-  const double last = turn.last();
-  if (between > turn.least()) {
-    add(turn, turn.solve(between, 0), 1);
-    if (between < last) add(turn, turn.solve(between, kQuarter), 1);
+  const auto turn = [&](Course course) { return Turn::of(ball, course, optics.index, da, db); };
+  const auto add_convex = [&](Course course, const Turn& t) {
+    const double last = t.last(), other = kTurn - between;
+    if (between > t.least()) {
+      add(course, t, t.solve(between, 0), between);
+      if (between < last) add(course, t, t.solve(between, kQuarter), between);
+    }
+    if (other < last) add(course, t, t.solve(other, kQuarter), other);
+  };
+
+  if (da > ball.radius) {
+    if (optics.mirrors)
+      if (const Turn t = turn(Course::Mirrored); between < t.last())
+        add(Course::Mirrored, t, t.solve(between, kQuarter), between);
+    if (optics.index > 0) add_convex(Course::Through, turn(Course::Through));
+    return count;
   }
-  if (kTurn - between < last) add(turn, turn.solve(kTurn - between, kQuarter), -1);
+  if (!(optics.index > 0)) return 0;
+  const Turn out = turn(Course::Out), past = turn(Course::OutPast);
+  const bool convex = past.from < 1;
+  const double end = convex ? kQuarter : std::asin(1 / past.from);
+  const bool outwards = between < out.angle(end, std::sin(end));
+  if (outwards) add(Course::Out, out, out.solve_within(between, end), between);
+  if (convex)
+    add_convex(Course::OutPast, past);
+  else if (!outwards)
+    add(Course::OutPast, past, past.solve_within(between, end), between);
   return count;
 }
 
@@ -126,11 +198,11 @@ double mirror_share(const ClearBall& ball, Vec3d from) {
 
 double spread_by(const ClearBall& ball, const BallWay& way, Vec3d from, Vec3d to) {
   const Vec3d a = from - ball.centre, b = to - ball.centre;
-  const double da = length(a), db = length(b), sine = Turn::cosine(way.cosine);
-  const Turn turn{ball.radius / da, ball.radius / db, int(way.through), 1 / way.index};
-  const double down = length(cross(a, b)) * da * db * Turn::cosine(turn.from * sine) *
-                      Turn::cosine(turn.to * sine) * std::abs(turn.slope(sine, way.cosine));
-  return down > 0 ? ball.radius * ball.radius * sine * way.cosine / down : 0;
+  const double da = length(a), db = length(b), sine = cosine_of(way.cosine);
+  const Turn turn = Turn::of(ball, way.course, way.index, da, db);
+  const double down = length(cross(a, b)) * db * cosine_of(turn.from * sine) *
+                      cosine_of(turn.to * sine) * std::abs(turn.slope(sine, way.cosine));
+  return down > 0 ? turn.from * turn.from * sine * way.cosine * da / down : 0;
 }
 
 double density_by(const ClearBall& ball, const BallWay& way, Vec3d from, const SurfacePoint& to,
@@ -140,7 +212,7 @@ double density_by(const ClearBall& ball, const BallWay& way, Vec3d from, const S
   const double shown =
       std::abs(dot(to.geometric_normal, back)) * spread_by(ball, way, from, to.position);
   if (!(shown > 0)) return 0;
-  if (!way.through) straight *= mirror_share(ball, from);
+  if (way.course == Course::Mirrored) straight *= mirror_share(ball, from);
   return straight * std::abs(dot(to.geometric_normal, line)) / (d2 * std::sqrt(d2)) / shown;
 }
 
@@ -152,11 +224,11 @@ double far_density_by(const ClearBall& ball, const BallWay& way, Vec3d from, Vec
                       double straight) {
   const double spread = spread_by(ball, way, from, far_point(ball, direction));
   const double far = kFar * ball.radius;
-  if (!way.through) straight *= mirror_share(ball, from);
+  if (way.course == Course::Mirrored) straight *= mirror_share(ball, from);
   return spread > 0 ? straight / (spread * far * far) : 0;
 }
 
-std::vector<ClearBall> clear_balls(const SceneData& scene, const Compiled& compiled) {
+std::vector<ClearBall> clear_balls(const SceneData& scene, const Compiled& compiled, bool plain) {
   std::vector<ClearBall> balls;
   for (int i = 0; i < int(scene.objects.size()) && balls.size() < kMostBalls; ++i) {
     const Object& o = scene.objects[i];
@@ -168,8 +240,9 @@ std::vector<ClearBall> clear_balls(const SceneData& scene, const Compiled& compi
     if (!c.placeless_material || c.bumps || nodes.size() != 1) continue;
     if (!c.material.has_specular()) continue;
     // Of what lets light through it is known of one how rays go.
-    if (!c.material.transmits() || nodes[0].lobe == materials::Lobe::Dielectric)
-      balls.push_back({i, sphere->centre, sphere->radius, &c.material});
+    if (c.material.transmits() && nodes[0].lobe != materials::Lobe::Dielectric) continue;
+    if (!plain && !alone(scene, compiled, i)) continue;
+    balls.push_back({i, sphere->centre, sphere->radius, &c.material, plain});
   }
   return balls;
 }

@@ -14,7 +14,13 @@
 ///
 ///   2 theta - asin(r sin(theta) / a) - asin(r sin(theta) / b) + c (pi - 2 asin(sin(theta) / n)),
 ///
-/// which is convex over theta in [0, pi / 2] for n > 1, so that every ray is found.
+/// which is convex over theta in [0, pi / 2] for n > 1, so that every ray is found. From a point
+/// inside, at a from the centre, a ray turns by
+///
+///   theta - asin(r sin(theta) / b) - asin(sin(theta) / n) +- asin(r sin(theta) / (n a))
+///
+/// and, for the lower sign, pi more: it comes past its point nearest to the centre first. The upper
+/// sign makes it grow with theta; the lower one makes it convex where r < n a, and fall elsewhere.
 
 #include <span>
 #include <vector>
@@ -29,6 +35,15 @@ struct ClearBall {
   Vec3d centre;
   double radius = 1;
   const materials::Layout* layout = nullptr;
+  bool from_outside = true;  ///< else only light for points inside is looked for
+};
+
+/// How a ray goes by a ball.
+enum class Course : std::uint8_t {
+  Mirrored,
+  Through,
+  Out,      ///< from inside, away from the centre all along
+  OutPast,  ///< from inside, past its point nearest to the centre
 };
 
 /// What rays are looked for at a ball, for the wavelengths of one path.
@@ -45,9 +60,9 @@ struct BallOptics {
 
 /// A ray by way of a ball.
 struct BallRay {
-  bool through = false;  ///< else mirrored
-  double cosine = 0;     ///< to the normal, where it comes and where it leaves
-  Vec3d entry, exit;     ///< the same of one that is mirrored
+  Course course = Course::Mirrored;
+  double cosine = 0;  ///< to the normal, outside, where it comes and where it leaves
+  Vec3d entry, exit;  ///< the same but of one that goes through
 };
 inline constexpr int kMostBallRays = 4;
 
@@ -56,23 +71,24 @@ struct BallShare {
   Spectrumf f;         ///< what is left of radiance
   Spectrumf possible;  ///< 1 for a wavelength that may go the hero's way, else 0
 };
-BallShare share_of(const ClearBall& ball, const float* params, const BallRay& ray);
+BallShare share_of(const ClearBall& ball, const float* params, const BallOptics& optics,
+                   const BallRay& ray);
 
-/// All rays from `from` to `to`, two points outside, by way of `ball`; their number.
+/// All rays from `from` to `to`, which is outside, by way of `ball`; their number.
 int rays_by(const ClearBall& ball, const BallOptics& optics, Vec3d from, Vec3d to,
             std::span<BallRay, kMostBallRays> rays);
 
 /// What a ray spreads by: how it went, and between what points.
 struct BallWay {
-  bool through = false;
+  Course course = Course::Mirrored;
   double index = 1, cosine = 0;
 };
 
 /// The share of mirrored rays that are worth looking for from a point: a ball far off sends little.
 double mirror_share(const ClearBall& ball, Vec3d from);
 
-/// Steradians at one end for each m^2 across the ray at the other, the same both ways. 0 where it
-/// is not known, the points and the centre on a line.
+/// Steradians at `from` for each m^2 across the ray at `to`. 0 where it is not known, the points
+/// and the centre on a line.
 double spread_by(const ClearBall& ball, const BallWay& way, Vec3d from, Vec3d to);
 
 /// Density, per steradian at `from`, of drawing a light's point `to` and going there by way of the
@@ -88,6 +104,7 @@ double far_density_by(const ClearBall& ball, const BallWay& way, Vec3d from, Vec
                       double straight);
 
 /// Such balls of a scene, or the first few.
-std::vector<ClearBall> clear_balls(const SceneData& scene, const Compiled& compiled);
+/// `plain` as of World; where it is not, only those that hold a volume alone.
+std::vector<ClearBall> clear_balls(const SceneData& scene, const Compiled& compiled, bool plain);
 
 }  // namespace mms::renderer

@@ -64,6 +64,7 @@ struct Flight {
   std::uint32_t step = 0;      ///< counts its random numbers
   std::uint32_t stream = 0;    ///< tells them from those of other flights of the path
   double light_density = 0;    ///< of a shadow ray: with which its light was drawn, 1/sr
+  int beyond = -1;  ///< of a shadow ray that leaves a ball: what it goes on by, as its owner knows
   Media media;
   Carried carried;
   int medium = -1;     ///< object whose volume is asked, or scattered it

@@ -36,8 +36,8 @@ class Integrator {
   /// Of a path that goes on by way of a ball (renderer/caustics.h): where it left the vertex
   /// before, from where light can be drawn that comes the same way.
   struct Detour {
-    int ball = -1;           ///< index into World::balls; -1: on no such way
-    bool through = false;    ///< else mirrored
+    int ball = -1;  ///< index into World::balls; -1: on no such way
+    Course course = Course::Mirrored;
     bool inside = false;     ///< has not left the ball yet
     float cosine = 0;        ///< to the normal, where it entered
     Vec3f origin, receiver;  ///< of the Flight that came to the ball
@@ -59,7 +59,7 @@ class Integrator {
     int parent = -1;       ///< path that this one branched off, or -1
     int specular = 0;      ///< vertices so far that only mirror and bend
     Detour detour;
-    std::uint32_t mirrors = 0;  ///< counts its numbers for whether a ball's mirrored ray is sought
+    std::uint32_t choices = 0;  ///< counts its numbers for which rays by a ball are sought
   };
   /// A point of a path where it is scattered.
   struct Vertex {
@@ -76,6 +76,12 @@ class Integrator {
     int kind;  ///< as in Vertex
     const Flight* flight;
   };
+  /// How a shadow ray goes on where it leaves a ball.
+  struct Beyond {
+    int object;  ///< the ball
+    Vec3f origin, direction;
+    float distance;
+  };
   /// Light drawn for a vertex of which a script is to say what it radiates.
   struct Connection {
     int flight;  ///< in shadows_
@@ -85,6 +91,7 @@ class Integrator {
   void make_room(std::size_t more);
   PathView view(Path& p) const;
   void start(const PixelSample& pixel, int sample, FilmSample& stream);
+  bool go_beyond(Flight f);
   void receive(const Flight& f);
   void gather();
   void ask_surroundings();
@@ -103,13 +110,15 @@ class Integrator {
   Detour next_detour(const Vertex& v, const Sampled& sampled) const;
   double light_density(const Vertex& v) const;
   double environment_density(const Flight& f, Vec3d direction) const;
+  int rays_out(int path, Vec3d to) const;
+  void leave_first(Flight& f, int ball, Vec3f origin, Vec3f exit);
   void ask_balls(std::size_t first);
   /// Of `optics_`, and times their size of `ball_params_`.
   std::size_t at_ball(int path, int ball) const {
     return std::size_t(paths_[path].sample) * world_.balls.size() + std::size_t(ball);
   }
   BallWay way(int path, const Detour& d) const {
-    return {d.through, optics_[at_ball(path, d.ball)].index, d.cosine};
+    return {d.course, optics_[at_ball(path, d.ball)].index, d.cosine};
   }
   void ask_emitters();
   void send_shadow_rays();
@@ -126,6 +135,8 @@ class Integrator {
   std::vector<Arrived> arrived_;
   std::vector<Vertex> vertices_;
   std::vector<Connection> connections_;
+  std::vector<Beyond> beyond_;
+  std::vector<int> free_beyond_;
   std::vector<Surroundings::Place> places_;
   std::vector<ScriptPoint> light_points_;
   std::vector<const ScriptPoint*> lanes_;

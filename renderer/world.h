@@ -34,7 +34,7 @@ struct World {
   std::vector<MajorantGrid> majorants;  ///< of each object's volume, if it varies: Findings
   Estimator estimator = Estimator::Clustered;
   Generator generator = Generator::Niederreiter;
-  std::vector<ClearBall> balls;  ///< by way of which lights are reached; of plain scenes only
+  std::vector<ClearBall> balls;  ///< by way of which lights are reached
 
   /// The one of `balls` that an object is, or -1.
   int ball_of(int object) const {
