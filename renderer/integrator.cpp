@@ -681,7 +681,10 @@ void Integrator::send_shadow_rays() {
     return;
   }
   for (const Flight& f : shadows_) {
-    if (f.carried.beta.is_black()) continue;
+    if (f.carried.beta.is_black()) {
+      if (f.beyond >= 0) free_beyond_.push_back(f.beyond);
+      continue;
+    }
     paths_[f.path].asks = true;
     next_.push_back(f);
   }

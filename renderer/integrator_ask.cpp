@@ -59,7 +59,8 @@ void Integrator::ask_emitters() {
       q.cluster = &paths_[shadows_[c.flight].path].cluster;
       q.surface = complete(q.object->shape, c.light.surface);
       q.view = -c.light.direction;
-      q.distance = shadows_[c.flight].t_max;
+      const Flight& f = shadows_[c.flight];
+      q.distance = f.beyond < 0 ? f.t_max : beyond_[std::size_t(f.beyond)].distance;
       light_points_.push_back(q);
     }
     lanes_.clear();
