@@ -82,6 +82,9 @@ Result<ReadPicture> read_picture(const std::string& path, const std::string& lay
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored))
     return Error{path, "there is no such picture", "is it there?"};
+  if (extension_of(path) == kFilmExtension)
+    return Error{path, "is a film, exact sums, not a picture",
+                 "make a picture of it: mms merge A.film -o A.exr"};
   const auto io = open_image_io(path);
   if (!io) return io.error();
   return (*io)->read(path, layer);

@@ -82,7 +82,7 @@ struct ReadPicture {
 
 /// Everything that OpenImageIO reads; encoded pictures are linearised. `layer`: empty is the
 /// picture, else as our .exr files name them; one channel is given three times. Errors: unreadable,
-/// no such layer.
+/// a film, no such layer.
 Result<ReadPicture> read_picture(const std::string& path, const std::string& layer = "");
 
 }  // namespace mms::renderer

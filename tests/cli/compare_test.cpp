@@ -74,6 +74,7 @@ TEST_CASE("what cannot be compared says why") {
   folder.write("text.png", "no picture");
   REQUIRE(folder.mms("render s.mms --quiet --size 8x8 --samples 1 -o a.exr").exit == 0);
   REQUIRE(folder.mms("render s.mms --quiet --size 8x9 --samples 1 -o b.exr").exit == 0);
+  REQUIRE(folder.mms("render s.mms --quiet --size 8x8 --samples 1 -o a.film").exit == 0);
   const struct {
     const char* args;
     int exit;
@@ -81,6 +82,8 @@ TEST_CASE("what cannot be compared says why") {
   } cases[] = {{"a.exr none.exr", 3, "none.exr"},
                {"a.exr text.png", 3, "text.png"},
                {"a.exr b.exr", 3, "sizes differ: 8x8 and 8x9"},
+               {"a.film a.exr", 3, "a.film: is a film, exact sums, not a picture\n  = help: make"},
+               {"a.exr a.film", 3, "mms merge A.film -o A.exr"},
                {"a.exr a.exr --layer albdo", 3, "albedo"},
                {"a.exr a.exr --crop 1,2,3", 2, "--crop"},
                {"a.exr a.exr --crop 4,4,5,1", 2, "the picture is 8x8"},
