@@ -117,7 +117,9 @@ Diagnostic& Diagnostics::add_text(Diag id, Span span, std::string text) {
     const Diag last = Diag::TooManyErrors;
     all_.push_back({last, info(last).severity, span, std::string(info(last).text), {}, {}, {}});
   }
-  if (full || !seen_.insert({id, span.source, span.begin, span.end}).second) return dropped_;
+  const std::string subject = span ? std::string() : text;
+  if (full || !seen_.insert({id, span.source, span.begin, span.end, subject}).second)
+    return dropped_;
   errors_ += error ? 1 : 0;
   all_.push_back({id, *severity, span, std::move(text), {}, {}, {}});
   note_calls(all_.back());

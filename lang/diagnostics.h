@@ -107,7 +107,8 @@ inline constexpr std::size_t kMaxErrors = 100;
 /// Of a longer chain of calls only so many are told.
 inline constexpr std::size_t kMaxCalls = 4;
 
-/// Collects diagnostics: each (row, place) once, at most `kMaxErrors` of them.
+/// Collects diagnostics: each (row, place) once, and (row, text) of those without a place; at most
+/// `kMaxErrors` of them.
 class Diagnostics {
  public:
   Diagnostics() = default;
@@ -143,7 +144,7 @@ class Diagnostics {
 
   std::vector<Diagnostic> all_;
   std::vector<SourcePtr> sources_;
-  std::set<std::tuple<Diag, const Source*, std::uint32_t, std::uint32_t>> seen_;
+  std::set<std::tuple<Diag, const Source*, std::uint32_t, std::uint32_t, std::string>> seen_;
   Diagnostic dropped_{};  ///< where repeated messages go
   std::size_t errors_ = 0;
 };

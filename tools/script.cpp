@@ -196,8 +196,9 @@ std::optional<lang::Linked> link(const std::vector<lang::SourcePtr>& sources,
 /// The same where one of the sources is a compiled program, in which params are what they are.
 std::optional<lang::Linked> load(const std::vector<lang::SourcePtr>& sources,
                                  const Settings& settings, const ScriptOptions& options,
-                                 vm::ImageSource& images, Exit& exit) {
-  auto loaded = load_stored(sources, options, images);
+                                 vm::ImageSource& images, lang::Diagnostics& diagnostics,
+                                 Exit& exit) {
+  auto loaded = load_stored(sources, options, images, diagnostics);
   if (!loaded) {
     exit = fail(sources.size() > 1 ? Exit::Usage : Exit::File, loaded.error(), options);
     return std::nullopt;
@@ -258,7 +259,7 @@ std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
     return std::nullopt;
   }
   auto linked = any_stored(sources)
-                    ? load(sources, *settings, options, **images, exit)
+                    ? load(sources, *settings, options, **images, diagnostics, exit)
                     : link(sources, *settings, options, **images, diagnostics, exit);
   if (!linked) return std::nullopt;
   auto set = variables(*settings, *linked, options.at_points);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "api/library.h"
 #include "vm/serialise.h"
 
@@ -14,6 +16,28 @@ bool is_stored(const lang::SourcePtr& source) {
   return vm::is_stored(source->text) || source->name.ends_with(".mmsc");
 }
 
+/// Opens an image of the program in `file`. Where it cannot be read it is an error, or magenta.
+std::optional<Error> open_image(vm::ProgramImage& image, const std::string& file,
+                                const ScriptOptions& options, vm::ImageSource& images,
+                                lang::Diagnostics& diagnostics) {
+  if (options.looked_for) options.looked_for(image.use.file);
+  const auto opened = images.open(image.use);
+  if (opened) {
+    image.image = *opened;
+    return std::nullopt;
+  }
+  const bool curve = image.use.filter == vm::kCurveFilter;
+  const char* const form = curve ? "table" : "image";
+  const std::string& what = opened.error().what;
+  if (options.missing != "magenta")
+    return Error{file, fmt::format("the {} `{}` {}", form, image.use.file, what),
+                 "put it there, or compile the script again; --missing=magenta goes on without"};
+  diagnostics
+      .add(lang::Diag::ImageReplaced, {}, form, image.use.file, what, curve ? "1" : "magenta")
+      .note({}, fmt::format("the compiled program `{}` reads it", file));
+  return std::nullopt;
+}
+
 }  // namespace
 
 bool any_stored(const std::vector<lang::SourcePtr>& sources) {
@@ -21,7 +45,8 @@ bool any_stored(const std::vector<lang::SourcePtr>& sources) {
 }
 
 Result<lang::Linked> load_stored(const std::vector<lang::SourcePtr>& sources,
-                                 const ScriptOptions& options, vm::ImageSource& images) {
+                                 const ScriptOptions& options, vm::ImageSource& images,
+                                 lang::Diagnostics& diagnostics) {
   const lang::Source& file = **std::find_if(sources.begin(), sources.end(), is_stored);
   if (sources.size() > 1)
     return Error{file.name, "is a compiled program, which cannot be linked with anything more",
@@ -32,15 +57,8 @@ Result<lang::Linked> load_stored(const std::vector<lang::SourcePtr>& sources,
     error.where = error.where.empty() ? file.name : file.name + ": " + error.where;
     return error;
   }
-  for (vm::ProgramImage& image : loaded->program.images) {
-    if (options.looked_for) options.looked_for(image.use.file);
-    auto opened = images.open(image.use);
-    if (opened)
-      image.image = *opened;
-    else if (options.missing != "magenta")
-      return Error{file.name, "the image `" + image.use.file + "` " + opened.error().what,
-                   "put it there, or compile the script again; --missing=magenta goes on without"};
-  }
+  for (vm::ProgramImage& image : loaded->program.images)
+    if (auto error = open_image(image, file.name, options, images, diagnostics)) return *error;
   lang::Linked linked;
   linked.program = std::move(loaded->program);
   linked.params = std::move(loaded->params);

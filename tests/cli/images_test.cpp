@@ -72,6 +72,20 @@ TEST_CASE(
   CHECK(folder.mms("check --deps s.mms").out == "lamp.csv\n");
   CHECK(folder.mms("compile s.mms -o s.mmsc").exit == 0);
   CHECK(folder.mms("eval s.mmsc").out == eval.out);
+  folder.bash("rm lamp.csv");
+  const Outcome refused = folder.mms("eval s.mmsc");
+  CHECK(refused.exit == 3);
+  CHECK(contains(refused.err, "error: s.mmsc: the table `lamp.csv` cannot be read\n"));
+  const Outcome stored = folder.mms("eval s.mmsc --missing=magenta");
+  CHECK(stored.exit == 0);
+  CHECK(stored.out == without.out);
+  // The table is read by two columns and by its slope, and told once.
+  CHECK(stored.err ==
+        "warning[W0408]: the table `lamp.csv` cannot be read: 1 stands for it [-Wimage-replaced]\n"
+        "   = note: the compiled program `s.mmsc` reads it\n"
+        "   = help: `mms explain W0408` says more\n");
+  CHECK(folder.mms("eval s.mmsc --missing=magenta -Wno-image-replaced").err == "");
+  CHECK(folder.mms("eval s.mmsc --missing=magenta -Werror").exit == 1);
   folder.write("lamp.csv", "400,1\n500,three\n");
   const Outcome broken = folder.mms("check s.mms");
   CHECK(broken.exit == 1);

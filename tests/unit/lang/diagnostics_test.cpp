@@ -118,6 +118,13 @@ TEST_CASE("a place at the end, an empty line, no place, a byte outside") {
   CHECK(render(d.all()[3]) == "error[E0123]: this `end` ends nothing\n   = help: h\n");
 }
 
+TEST_CASE("of what has no place each sentence is said once") {
+  Diagnostics d;
+  for (const char* name : {"a", "b", "a"}) d.add(Diag::UnknownParam, Span{}, name);
+  REQUIRE(d.all().size() == 2);
+  CHECK(d.all()[0].text != d.all()[1].text);
+}
+
 TEST_CASE("long lines are cut round the carets") {
   for (const std::size_t before : {0, 50, 99, 150, 399, 5000, 1000000}) {
     CAPTURE(before);
