@@ -31,8 +31,11 @@ struct RenderJob : RenderScript {
 std::optional<RenderScript> compile_script(const RenderRequest& request, const std::string& file,
                                            Exit& exit);
 
-/// The files that a picture of `script` is made from, as far as they are named: not those of a
-/// scene.
+/// A scene that is a file, and what may name a file in it, there or not: meshes and pictures, and
+/// other strings too. The scene alone where it cannot be read.
+std::vector<std::string> files_of_scene(const std::string& scene);
+
+/// The files that a picture of `script` is made from, as far as they are named.
 std::vector<std::string> inputs_of(const RenderRequest& request, const RenderScript& script);
 
 /// Loads the scene, or a turn of it; empty after saying what is wrong.

@@ -169,10 +169,29 @@ std::optional<RenderScript> compile_script(const RenderRequest& request, const s
   return RenderScript{program, choose_surface(request, file, p), script_hash(p)};
 }
 
+std::vector<std::string> files_of_scene(const std::string& scene) {
+  std::vector<std::string> files{scene};
+  std::error_code ignored;
+  if (!fs::is_regular_file(scene, ignored)) return files;
+  std::ifstream in(scene);
+  const Json json = Json::parse(in, nullptr, false, true);
+  // No recursion: a text may nest deeper than the stack.
+  std::vector<const Json*> left{&json};
+  while (!left.empty()) {
+    const Json& part = *left.back();
+    left.pop_back();
+    if (part.is_string())
+      files.push_back((fs::path(scene).parent_path() / part.get<std::string>()).string());
+    if (part.is_structured())
+      for (const Json& inner : part) left.push_back(&inner);
+  }
+  return files;
+}
+
 std::vector<std::string> inputs_of(const RenderRequest& request, const RenderScript& script) {
-  std::vector<std::string> all = request.files;
+  std::vector<std::string> all = files_of_scene(request.scene);
+  all.insert(all.end(), request.files.begin(), request.files.end());
   all.insert(all.end(), script.linked->dependencies.begin(), script.linked->dependencies.end());
-  all.push_back(request.scene);
   all.push_back(request.environment);
   return all;
 }

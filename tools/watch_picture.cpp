@@ -8,7 +8,6 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <thread>
 
@@ -90,22 +89,6 @@ class WatchedFiles {
   std::map<std::string, Stamp> files_;
   std::map<std::string, int> tiles_;
 };
-
-/// What may name a file in a scene, there or not: meshes and pictures.
-void add_files_of(const nlohmann::json& json, const fs::path& folder, WatchedFiles& files) {
-  if (json.is_string()) files.add((folder / json.get<std::string>()).string());
-  if (json.is_structured())
-    for (const auto& part : json) add_files_of(part, folder, files);
-}
-
-void add_scene(const std::string& scene, WatchedFiles& files) {
-  files.add(scene);
-  std::error_code ignored;
-  if (!fs::is_regular_file(scene, ignored)) return;
-  std::ifstream in(scene);
-  const auto json = nlohmann::json::parse(in, nullptr, false, true);
-  if (!json.is_discarded()) add_files_of(json, fs::path(scene).parent_path(), files);
-}
 
 /// Each pixel of a coarse picture as a square of the whole one.
 renderer::Film enlarged(const renderer::Film& coarse, int width, int height) {
@@ -204,7 +187,7 @@ Exit watch(RenderRequest request, const std::string& file, const std::string& pa
     // Each is added before it is read: what changes after that is seen.
     WatchedFiles files;
     files.add(file);
-    add_scene(request.scene, files);
+    for (const std::string& name : files_of_scene(request.scene)) files.add(name);
     files.add(request.environment);
     request.looked_for = [&](const std::string& name) { files.add(name); };
     Exit exit = Exit::Ok;

@@ -331,6 +331,17 @@ TEST_CASE("pictures over what they are made from") {
   refused("render good.mms --environment map.png -o map.png" + std::string(kSmall), "map.png");
   refused("render good.png" + std::string(kSmall), "good.png");
   refused("compare map.png map.png -o map.png", "map.png");
+  // What a scene names is looked for beside it; a mesh may have a second name.
+  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::filesystem::create_directory(folder.path("set"));
+  folder.write("set/mesh.obj", mesh);
+  std::filesystem::create_hard_link(folder.path("set/mesh.obj"), folder.path("mesh.exr"));
+  folder.write("set/scene.json", R"({"environment": {"image": "../map.png"},
+                                     "objects": [{"mesh": "mesh.obj", "test": true}]})");
+  for (const std::string watch : {"", " --watch"})
+    for (const std::string output : {"map.png", "mesh.exr"})
+      refused("render good.mms --scene set/scene.json -o " + output + watch + kSmall, output);
+  CHECK(folder.read("set/mesh.obj") == mesh);
   CHECK(folder.read("map.png") == picture);
   CHECK(folder.read("good.png") == kGood);
 }
