@@ -350,7 +350,7 @@ std::string peers() {
       "One thread, at most 8 scattering events, 256x256 pixels: the processor's microseconds a "
       "sample, and the processor's seconds\nof a render that ends when it states a root mean "
       "square error of luminance of 0.01 (1 is white), as `--error 0.01`\nends it, which "
-      "asks\nafter 8 samples, then four times in each doubling: the least and the most of {} "
+      "asks\nafter 8 samples, then eight times in each doubling: the least and the most of {} "
       "seeds. The peers were measured earlier on "
       "the same kind of machine, on\n"
       "spheres of similar materials in similar light, not on this very scene.\n\n"

@@ -22,11 +22,11 @@ constexpr std::uint32_t kFirstAsked = 8;
 /// Samples that were dropped of which it is found out why.
 constexpr std::size_t kExplained = 64;
 
-/// Where the error is asked for again: four times in each doubling.
+/// Where the error is asked for again.
 std::uint32_t asked_after(std::uint32_t samples) {
   if (samples < kFirstAsked) return kFirstAsked;
   const std::uint32_t octave = std::uint32_t(1) << (31 - __builtin_clz(samples));
-  return samples + octave / 4;
+  return samples + octave / kPartsOfOctave;
 }
 
 /// Where scripts run many paths are worked on together, for full batches; but every thread

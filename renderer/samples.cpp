@@ -12,11 +12,11 @@ namespace {
 
 /// Samples of the passes from kFirstFullPass on: with 16 x 16 pixels, 2048 paths in a chunk.
 constexpr std::uint32_t kSamplesOfPass = 8;
-/// The first of the passes that are quarters of an octave, and the sample it begins with.
-constexpr int kFirstQuarter = 4;
-constexpr std::uint32_t kFirstOfQuarters = 8;
-constexpr int kFirstFullPass = 12;
-constexpr std::uint32_t kFirstOfFull = 32;
+constexpr std::uint32_t kFirstOfFull = kPartsOfOctave * kSamplesOfPass;
+/// The first of the passes that are parts of an octave: those of the first such octave have one
+/// sample each, and each octave doubles that.
+constexpr int kFirstPart = std::bit_width(kPartsOfOctave);
+constexpr int kFirstFullPass = kFirstPart + int(kPartsOfOctave) * std::countr_zero(kSamplesOfPass);
 
 }  // namespace
 
@@ -91,11 +91,10 @@ Film PartialFilm::develop() const {
 
 SampleSet::Range pass_range(int pass) {
   if (pass == 0) return {0, 1};
-  if (pass < kFirstQuarter) return {1u << (pass - 1), 1u << pass};
+  if (pass < kFirstPart) return {1u << (pass - 1), 1u << pass};
   if (pass < kFirstFullPass) {
-    const int octave = (pass - kFirstQuarter) / 4, quarter = (pass - kFirstQuarter) % 4;
-    const std::uint32_t size = (kFirstOfQuarters / 4) << octave;
-    const std::uint32_t first = size * std::uint32_t(4 + quarter);
+    const std::uint32_t part = std::uint32_t(pass - kFirstPart), size = 1u << part / kPartsOfOctave;
+    const std::uint32_t first = size * (kPartsOfOctave + part % kPartsOfOctave);
     return {first, first + size};
   }
   const std::uint32_t first = kFirstOfFull + std::uint32_t(pass - kFirstFullPass) * kSamplesOfPass;
@@ -105,10 +104,9 @@ SampleSet::Range pass_range(int pass) {
 int pass_of(std::uint32_t number) {
   if (number >= kFirstOfFull) return kFirstFullPass + int((number - kFirstOfFull) / kSamplesOfPass);
   const int digits = std::bit_width(number);
-  if (number < kFirstOfQuarters) return digits;
-  const int octave = digits - std::bit_width(kFirstOfQuarters);
-  const std::uint32_t size = (kFirstOfQuarters / 4) << octave;
-  return kFirstQuarter + 4 * octave + int(number / size) - 4;
+  if (number < kPartsOfOctave) return digits;
+  const int octave = digits - kFirstPart;
+  return kFirstPart + int(kPartsOfOctave) * octave + int((number >> octave) - kPartsOfOctave);
 }
 
 }  // namespace mms::renderer

@@ -53,9 +53,12 @@ struct PartialFilm {
   Film develop() const;
 };
 
+/// Doublings of the samples are worked on, and looked at, in so many parts.
+inline constexpr std::uint32_t kPartsOfOctave = 8;
+
 /// The passes that a picture is made in, each over all tiles: [0, 1), [1, 2), [2, 4), [4, 8), then
-/// quarters of an octave up to 32, then eight samples each. The first shows something soon; none
-/// lies in two blocks of the film.
+/// parts of an octave up to 64, then eight samples each. The first shows something soon; none lies
+/// in two blocks of the film.
 SampleSet::Range pass_range(int pass);
 /// The pass that sample `number` is in.
 int pass_of(std::uint32_t number);

@@ -138,6 +138,27 @@ TEST_CASE("pictures: stated and real error agree") {
   }
 }
 
+TEST_CASE("a picture that ends by error does so within an eighth of a doubling") {
+  HandProgram h;
+  h.matte("matte", 0.5);
+  const auto scene = load_scene(h.program, {"sphere", "matte", ""});
+  REQUIRE(bool(scene));
+  RenderOptions o;
+  o.width = o.height = 40;
+  for (const int n : {9, 18, 36, 144}) {
+    CAPTURE(n);
+    o.samples = n;
+    o.error = 0;
+    const auto known = render(h.program, *scene, o);
+    REQUIRE(bool(known));
+    o.samples = 256;
+    o.error = known->report.rmse;  // which no picture of fewer samples states
+    const auto r = render(h.program, *scene, o);
+    REQUIRE(bool(r));
+    CHECK(r->report.samples == n);
+  }
+}
+
 TEST_CASE("variances of a picture add up to its error, and a picture that ends by error has it") {
   HandProgram h;
   h.matte("matte", 0.5);
