@@ -8,7 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "renderer/scene.h"
+#include "renderer/scene_node.h"
 
 namespace mms::renderer {
 namespace {
@@ -46,9 +46,7 @@ bool append(const aiMesh& from, const Transform& transform, bool normals, bool u
 
 Result<Mesh> load_mesh(const std::string& path, const Transform& transform) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
-    return Error{path, "no mesh file `" + path + "`", "paths are relative to the scene file",
-                 Error::Cause::File};
+  if (!std::filesystem::is_regular_file(path, ignored)) return no_file("mesh", path);
   const std::string extension = extension_of(path);
   if (extension != ".obj" && extension != ".ply")
     return Error{path, "unsupported mesh type `" + extension + "`", "supported: .obj, .ply"};

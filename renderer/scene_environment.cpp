@@ -72,9 +72,7 @@ Environment environment_named(const std::string& name) {
 
 Result<EnvironmentImage> load_environment(const std::string& path) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
-    return Error{path, "no picture file `" + path + "`", "paths are relative to the scene file",
-                 Error::Cause::File};
+  if (!std::filesystem::is_regular_file(path, ignored)) return no_file("picture", path);
   Result<ReadPicture> picture = read_picture(path);
   if (!picture) return picture.error();
   for (std::array<float, 3>& c : picture->rgb)

@@ -31,6 +31,9 @@ std::string hint_for(const std::string& word, const std::vector<std::string>& ca
 
 Error no_such(const char* option, const char* thing, const std::string& name,
               const std::vector<std::string>& names) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(name, ignored))
+    return {option, fmt::format("`{}` is a folder", name), "name a file in it", Error::Cause::File};
   const std::string near = lang::nearest(name, names);
   const bool path =
       name.find('/') != std::string::npos || std::filesystem::path(name).has_extension();
@@ -38,6 +41,15 @@ Error no_such(const char* option, const char* thing, const std::string& name,
           (near.empty() ? "" : fmt::format("did you mean `{}`? ", near)) +
               "the path of a file, or one of " + join(names),
           path ? Error::Cause::File : Error::Cause::Name};
+}
+
+Error no_file(const char* thing, const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    return {path, fmt::format("`{}` is a folder, not a {} file", path, thing), "name a file in it",
+            Error::Cause::File};
+  return {path, fmt::format("no {} file `{}`", thing, path), "paths are relative to the scene file",
+          Error::Cause::File};
 }
 
 namespace {
@@ -328,7 +340,7 @@ Result<SceneData> parse_scene(const vm::Program& program, const SceneSource& sou
   Json json;
   try {
     json = Json::parse(text, nullptr, true, /*ignore_comments=*/true);
-  } catch (const Json::parse_error& e) {
+  } catch (const Json::exception& e) {  // what is not JSON, and numbers beyond double
     std::string what = e.what();  // "[json.exception.parse_error.101] parse error at line 3, ..."
     if (const std::size_t end = what.find("] "); end != std::string::npos) what.erase(0, end + 2);
     return Error{origin, what, "scene files are JSON; comments are allowed (docs/scene.md)"};
@@ -337,8 +349,9 @@ Result<SceneData> parse_scene(const vm::Program& program, const SceneSource& sou
     SceneData data = Parser(program, source, folder).scene(Node(json, origin, ""));
     data.name = origin;
     return data;
-  } catch (const Mistake& m) {
-    return m.error;
+  } catch (Mistake& m) {
+    if (m.error.hint.empty()) m.error.hint = "docs/scene.md tells what scenes are made of";
+    return std::move(m.error);
   }
 }
 

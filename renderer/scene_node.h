@@ -35,9 +35,13 @@ std::string join(const std::vector<std::string>& words);
 /// A hint for an unknown word: the nearest of what could stand there, and all of it.
 std::string hint_for(const std::string& word, const std::vector<std::string>& candidates);
 
-/// That an option which takes one of `names` or a path was given `name`, which is neither.
+/// That an option which takes one of `names` or the path of a file was given `name`, which is
+/// neither.
 Error no_such(const char* option, const char* thing, const std::string& name,
               const std::vector<std::string>& names);
+
+/// That `path`, which a scene names as a `thing`, is no file.
+Error no_file(const char* thing, const std::string& path);
 
 /// A JSON value and where it stands.
 class Node {
@@ -134,8 +138,10 @@ class Node {
     return {(*json_)[key], file_, path_.empty() ? key : path_ + "." + key};
   }
   std::string kind() const {
-    return json_->is_string() ? "the string \"" + json_->get<std::string>() + "\""
-                              : std::string(json_->type_name());
+    constexpr std::size_t kShown = 60;
+    if (!json_->is_string()) return json_->type_name();
+    const std::string text = json_->get<std::string>();
+    return "the string \"" + text.substr(0, kShown) + (text.size() > kShown ? "...\"" : "\"");
   }
 
   const Json* json_;

@@ -263,6 +263,48 @@ TEST_CASE("a scene that is missing, or with an unknown key") {
   CHECK(folder.file_count() == 2);
 }
 
+TEST_CASE("scenes that hold nothing, too much, or what is no number") {
+  const Folder folder;
+  folder.write("good.mms", kGood);
+  const std::string deep(1000000, '[');
+  const struct {
+    std::string scene;
+    const char *where, *what;
+  } cases[] = {
+      {"", "scene.json", "unexpected end of input"},
+      {"null", "scene.json", "expected an object"},
+      {R"({"objects": []})", "scene.json: objects", "no object"},
+      {deep, "scene.json", "unexpected end of input"},
+      {deep + std::string(deep.size(), ']'), "scene.json", "expected an object"},
+      {R"({"camera": ")" + std::string(100000, 'x') + "\"}", "scene.json: camera", "xxx..."},
+      {R"({"objects": [{"sphere": {"radius": 1e999}}]})", "scene.json", "1e999"}};
+  for (const auto& c : cases) {
+    folder.write("scene.json", c.scene);
+    const Outcome run =
+        folder.mms("render good.mms -o out.png --scene scene.json" + std::string(kSmall));
+    check_message(run, 1, c.where, c.what);
+    CHECK(run.err.size() < 400);
+  }
+  CHECK(folder.file_count() == 2);
+}
+
+TEST_CASE("folders in place of a scene and of what it names") {
+  const Folder folder;
+  folder.write("good.mms", kGood);
+  std::filesystem::create_directory(folder.path("box.obj"));
+  const std::string render = "render good.mms -o out.png" + std::string(kSmall);
+  check_message(folder.mms(render + "--scene box.obj"), 3, "--scene", "`box.obj` is a folder");
+  check_message(folder.mms(render + "--environment ./box.obj"), 3, "--environment", "is a folder");
+  folder.write("scene.json", R"({"objects": [{"mesh": "box.obj", "test": true}]})");
+  check_message(folder.mms(render + "--scene scene.json"), 3, "scene.json: objects[0].mesh",
+                "`box.obj` is a folder, not a mesh file");
+  folder.write("scene.json", R"({"environment": {"image": "box.obj"},
+                                 "objects": [{"sphere": {}, "test": true}]})");
+  check_message(folder.mms(render + "--scene scene.json"), 3, "scene.json: environment.image",
+                "`box.obj` is a folder, not a picture file");
+  CHECK_FALSE(folder.has("out.png"));
+}
+
 TEST_CASE("an environment that is missing") {
   check_render("-o out.png --environment claer" + std::string(kSmall), 2, "--environment",
                "did you mean `clear`?");
