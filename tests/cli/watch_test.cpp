@@ -128,7 +128,7 @@ TEST_CASE("a folder in place of a watched scene") {
   check_watched(folder, R"BASH(
 mkdir scene.json
 mms-render render s.mms --size 24x24 --samples 3 --scene scene.json --watch -o p.png >log 2>&1 & child=$!
-until_line 1 'no scene `scene.json`'
+until_line 1 '`scene.json` is a folder'
 rmdir scene.json
 echo '{"environment": {"constant": 1}, "objects": [{"sphere": {}, "test": true}]}' >new; mv new scene.json
 until_line 1 'estimated error'
