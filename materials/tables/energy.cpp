@@ -169,7 +169,8 @@ void write_stretched_interface(std::FILE* to, const std::string& name, bool risi
            [&](const double* x) {
              if (x[1] == 0) return 0.0;
              const double alpha = std::pow(kLeastBentRoot + (1 - kLeastBentRoot) * x[0], 2);
-             const auto [wide, narrow] = bent_widths(alpha, x[1]);
+             const auto widths = bent_widths(alpha, x[1]);
+             const double wide = widths[0], narrow = widths[1];
              const double eta = bent_index_at(x[3], rising), turn = x[2] * kPi<double> / 2;
              const Vec3d t = normalize(
                  Vec3d{std::sin(turn) / std::sqrt(wide), std::cos(turn) / std::sqrt(narrow), 0});
