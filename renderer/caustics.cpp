@@ -42,7 +42,7 @@ struct Turn {
   double to;                 ///< likewise
   double dense, dense_weight;
 
-  static Turn of(const ClearBall& ball, Course course, double index, double from, double to) {
+  static Turn of(const PolishedBall& ball, Course course, double index, double from, double to) {
     const double k = ball.radius / from, b = ball.radius / to, dense = 1 / index;
     switch (course) {
       case Course::Mirrored:
@@ -115,7 +115,7 @@ BallOptics::BallOptics(const materials::Layout& layout, const float* params) {
   if (layout.transmits()) index = params[0] > kLeastIndex ? params[0] : 0;
 }
 
-BallShare share_of(const ClearBall& ball, const float* params, const BallOptics& optics,
+BallShare share_of(const PolishedBall& ball, const float* params, const BallOptics& optics,
                    const BallRay& ray) {
   constexpr float kLast = 1 - 0x1p-24f;  // to let light through is the last that a lobe may do
   const bool mirrored = ray.course == Course::Mirrored, through = ray.course == Course::Through;
@@ -132,7 +132,7 @@ BallShare share_of(const ClearBall& ball, const float* params, const BallOptics&
           Spectrumf::map([](float p) { return p > 0 ? 1.0f : 0.0f; }, s->pdf)};
 }
 
-int rays_by(const ClearBall& ball, const BallOptics& optics, Vec3d from, Vec3d to,
+int rays_by(const PolishedBall& ball, const BallOptics& optics, Vec3d from, Vec3d to,
             std::span<BallRay, kMostBallRays> rays) {
   const Vec3d a = from - ball.centre, b = to - ball.centre;
   const double da = length(a), db = length(b);
@@ -190,13 +190,13 @@ int rays_by(const ClearBall& ball, const BallOptics& optics, Vec3d from, Vec3d t
   return count;
 }
 
-double mirror_share(const ClearBall& ball, Vec3d from) {
+double mirror_share(const PolishedBall& ball, Vec3d from) {
   const Vec3d a = from - ball.centre;
   const double much = ball.layout->transmits() ? 0.5 : 2;
   return std::min(1.0, much * ball.radius * ball.radius / dot(a, a));
 }
 
-double spread_by(const ClearBall& ball, const BallWay& way, Vec3d from, Vec3d to) {
+double spread_by(const PolishedBall& ball, const BallWay& way, Vec3d from, Vec3d to) {
   const Vec3d a = from - ball.centre, b = to - ball.centre;
   const double da = length(a), db = length(b), sine = cosine_of(way.cosine);
   const Turn turn = Turn::of(ball, way.course, way.index, da, db);
@@ -205,7 +205,7 @@ double spread_by(const ClearBall& ball, const BallWay& way, Vec3d from, Vec3d to
   return down > 0 ? turn.from * turn.from * sine * way.cosine * da / down : 0;
 }
 
-double density_by(const ClearBall& ball, const BallWay& way, Vec3d from, const SurfacePoint& to,
+double density_by(const PolishedBall& ball, const BallWay& way, Vec3d from, const SurfacePoint& to,
                   double straight, Vec3d back) {
   const Vec3d line = from - to.position;
   const double d2 = dot(line, line);
@@ -216,11 +216,11 @@ double density_by(const ClearBall& ball, const BallWay& way, Vec3d from, const S
   return straight * std::abs(dot(to.geometric_normal, line)) / (d2 * std::sqrt(d2)) / shown;
 }
 
-Vec3d far_point(const ClearBall& ball, Vec3d direction) {
+Vec3d far_point(const PolishedBall& ball, Vec3d direction) {
   return ball.centre + direction * (kFar * ball.radius);
 }
 
-double far_density_by(const ClearBall& ball, const BallWay& way, Vec3d from, Vec3d direction,
+double far_density_by(const PolishedBall& ball, const BallWay& way, Vec3d from, Vec3d direction,
                       double straight) {
   const double spread = spread_by(ball, way, from, far_point(ball, direction));
   const double far = kFar * ball.radius;
@@ -228,8 +228,12 @@ double far_density_by(const ClearBall& ball, const BallWay& way, Vec3d from, Vec
   return spread > 0 ? straight / (spread * far * far) : 0;
 }
 
-std::vector<ClearBall> clear_balls(const SceneData& scene, const Compiled& compiled, bool plain) {
-  std::vector<ClearBall> balls;
+std::vector<PolishedBall> polished_balls(const SceneData& scene, const Compiled& compiled,
+                                         bool plain) {
+  std::vector<PolishedBall> balls;
+  Scripts scripts(compiled);
+  std::vector<float> params(std::size_t(compiled.max_params()));
+  const Cluster cluster = sample_cluster(0.5);
   for (int i = 0; i < int(scene.objects.size()) && balls.size() < kMostBalls; ++i) {
     const Object& o = scene.objects[i];
     const Sphere* sphere = std::get_if<Sphere>(&o.shape);
@@ -238,11 +242,18 @@ std::vector<ClearBall> clear_balls(const SceneData& scene, const Compiled& compi
     const CompiledDescriptor& c = compiled.of(d);
     const auto nodes = c.material.nodes();
     if (!c.placeless_material || c.bumps || nodes.size() != 1) continue;
-    if (!c.material.has_specular()) continue;
     // Of what lets light through it is known of one how rays go.
     if (c.material.transmits() && nodes[0].lobe != materials::Lobe::Dielectric) continue;
     if (!plain && !alone(scene, compiled, i)) continue;
-    balls.push_back({i, sphere->centre, sphere->radius, &c.material, plain});
+    ScriptPoint point;
+    point.object = &o;
+    point.cluster = &cluster;
+    const ScriptPoint* const lane = &point;
+    scripts.run(*d, EntryKind::Shade, {&lane, 1});
+    if (scripts.given_up(0)) continue;
+    scripts.params(d->shade.material, 0, params.data());
+    if (BallOptics(c.material, params.data()).any())
+      balls.push_back({i, sphere->centre, sphere->radius, &c.material, plain});
   }
   return balls;
 }

@@ -30,7 +30,7 @@
 namespace mms::renderer {
 
 /// A sphere of one lobe, the same all over, that only mirrors and bends.
-struct ClearBall {
+struct PolishedBall {
   int object = -1;  ///< index into SceneData::objects
   Vec3d centre;
   double radius = 1;
@@ -71,11 +71,11 @@ struct BallShare {
   Spectrumf f;         ///< what is left of radiance
   Spectrumf possible;  ///< 1 for a wavelength that may go the hero's way, else 0
 };
-BallShare share_of(const ClearBall& ball, const float* params, const BallOptics& optics,
+BallShare share_of(const PolishedBall& ball, const float* params, const BallOptics& optics,
                    const BallRay& ray);
 
 /// All rays from `from` to `to`, which is outside, by way of `ball`; their number.
-int rays_by(const ClearBall& ball, const BallOptics& optics, Vec3d from, Vec3d to,
+int rays_by(const PolishedBall& ball, const BallOptics& optics, Vec3d from, Vec3d to,
             std::span<BallRay, kMostBallRays> rays);
 
 /// What a ray spreads by: how it went, and between what points.
@@ -85,26 +85,27 @@ struct BallWay {
 };
 
 /// The share of mirrored rays that are worth looking for from a point: a ball far off sends little.
-double mirror_share(const ClearBall& ball, Vec3d from);
+double mirror_share(const PolishedBall& ball, Vec3d from);
 
 /// Steradians at `from` for each m^2 across the ray at `to`. 0 where it is not known, the points
 /// and the centre on a line.
-double spread_by(const ClearBall& ball, const BallWay& way, Vec3d from, Vec3d to);
+double spread_by(const PolishedBall& ball, const BallWay& way, Vec3d from, Vec3d to);
 
 /// Density, per steradian at `from`, of drawing a light's point `to` and going there by way of the
 /// ball; `straight` is the density of the direction in which the point lies. `back`: unit, from
 /// there to the ball.
-double density_by(const ClearBall& ball, const BallWay& way, Vec3d from, const SurfacePoint& to,
+double density_by(const PolishedBall& ball, const BallWay& way, Vec3d from, const SurfacePoint& to,
                   double straight, Vec3d back);
 
 /// A point that stands for what lies endlessly far along a unit `direction`.
-Vec3d far_point(const ClearBall& ball, Vec3d direction);
+Vec3d far_point(const PolishedBall& ball, Vec3d direction);
 /// The density likewise of light from endlessly far along `direction`.
-double far_density_by(const ClearBall& ball, const BallWay& way, Vec3d from, Vec3d direction,
+double far_density_by(const PolishedBall& ball, const BallWay& way, Vec3d from, Vec3d direction,
                       double straight);
 
-/// Such balls of a scene, or the first few.
-/// `plain` as of World; where it is not, only those that hold a volume alone.
-std::vector<ClearBall> clear_balls(const SceneData& scene, const Compiled& compiled, bool plain);
+/// Such balls of a scene, or the first few. `plain` as of World; where it is not, only those that
+/// hold a volume alone. Runs scripts.
+std::vector<PolishedBall> polished_balls(const SceneData& scene, const Compiled& compiled,
+                                         bool plain);
 
 }  // namespace mms::renderer

@@ -319,7 +319,7 @@ double Integrator::environment_density(const Flight& f, Vec3d direction) const {
   const Detour& d = paths_[f.path].detour;
   if (d.ball < 0) return world_.lights.pdf_environment(f.left(), direction);
   if (d.inside) return 0;
-  const ClearBall& ball = world_.balls[d.ball];
+  const PolishedBall& ball = world_.balls[d.ball];
   return far_density_by(ball, way(f.path, d), Vec3d(d.origin), direction,
                         world_.lights.pdf_environment(d.left(), direction)) /
          rays_out(f.path, far_point(ball, direction));
@@ -565,7 +565,7 @@ void Integrator::connect(const Vertex& v, const Scatterer& s, const LightSample&
 void Integrator::connect_by(int number, const Vertex& v, const Scatterer& s,
                             const LightSample& light) {
   Path& p = paths_[v.from->path];
-  const ClearBall& ball = world_.balls[std::size_t(number)];
+  const PolishedBall& ball = world_.balls[std::size_t(number)];
   const std::size_t at = at_ball(v.from->path, number);
   const bool far = light.object == kEnvironment;
   const Vec3d from = v.point.surface.position,

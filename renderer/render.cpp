@@ -69,24 +69,24 @@ Result<Rendered> render(const vm::Program& program, const Scene& scene,
   }
   const Accel accel(data, collected);
   const Lights lights(data, findings->radiance);
-  World world{
-      data,
-      compiled,
-      accel,
-      lights,
-      CameraRays(data.camera, options.width, options.height),
-      {},
-      {},
-      std::move(passes),
-      plain,
-      nested,
-      plain && lights.count() <= kLightsOfFirst,
-      options.seed,
-      options.max_depth,
-      std::move(findings->majorants),
-      options.estimator,
-      options.generator,
-      !nested && lights.any() ? clear_balls(data, compiled, plain) : std::vector<ClearBall>()};
+  World world{data,
+              compiled,
+              accel,
+              lights,
+              CameraRays(data.camera, options.width, options.height),
+              {},
+              {},
+              std::move(passes),
+              plain,
+              nested,
+              plain && lights.count() <= kLightsOfFirst,
+              options.seed,
+              options.max_depth,
+              std::move(findings->majorants),
+              options.estimator,
+              options.generator,
+              !nested && lights.any() ? polished_balls(data, compiled, plain)
+                                      : std::vector<PolishedBall>()};
   for (int i = 0; i < int(data.objects.size()); ++i)
     world.sealed.push_back(sealed(data, compiled, i));
   for (int i = 0; i < int(data.objects.size()); ++i)

@@ -34,11 +34,11 @@ struct World {
   std::vector<MajorantGrid> majorants;  ///< of each object's volume, if it varies: Findings
   Estimator estimator = Estimator::Clustered;
   Generator generator = Generator::Niederreiter;
-  std::vector<ClearBall> balls;  ///< by way of which lights are reached
+  std::vector<PolishedBall> balls;  ///< by way of which lights are reached
 
   /// The one of `balls` that an object is, or -1.
   int ball_of(int object) const {
-    const auto at = std::ranges::find(balls, object, &ClearBall::object);
+    const auto at = std::ranges::find(balls, object, &PolishedBall::object);
     return at == balls.end() ? -1 : int(at - balls.begin());
   }
   const Surface& surface_of_object(int object) const {

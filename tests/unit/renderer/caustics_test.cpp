@@ -209,7 +209,7 @@ TEST_CASE("how rays by way of a ball spread is the quotient of small differences
   for (int i = 0; i < 1500; ++i) {
     const Case c = draw(random, Where(i % 3));
     if (length(c.to) < 1.01) continue;
-    const ClearBall ball{0, {}, 1};
+    const PolishedBall ball{0, {}, 1};
     std::array<BallRay, kMostBallRays> rays;
     const int count = rays_by(ball, optics(c.n), c.from, c.to, rays);
     for (int k = 0; k < count; ++k) {
@@ -240,7 +240,7 @@ TEST_CASE("how rays by way of a ball spread is the quotient of small differences
 TEST_CASE("light from endlessly far is what light from very far comes to") {
   const materials::Layout layout(vm::MaterialLayout{
       {{int(materials::Lobe::Mirror), {{vm::SlotType::Spectrum, true, 0}}, {}}}});
-  const ClearBall ball{0, {0.2, 0.1, -0.3}, 0.7, &layout};
+  const PolishedBall ball{0, {0.2, 0.1, -0.3}, 0.7, &layout};
   const Vec3d from{1.5, 0.4, 0.9};
   for (const BallWay& way : {BallWay{Course::Through, 1.5, 0.8}, BallWay{Course::Mirrored, 1, 0.6}})
     for (const Vec3d& direction :
@@ -316,6 +316,8 @@ TEST_CASE("the ground gets what rays through a clear ball bring, or off a mirror
   }
 }
 
+constexpr const char* kDisperses = "1.4 + 3e-14 / ($wavelength * $wavelength)";
+
 TEST_CASE("amid lamps of radiance 1 a ball that loses nothing is 1, whatever it is filled with") {
   std::string script, object;
   SUBCASE("a medium that scatters") {
@@ -327,9 +329,12 @@ TEST_CASE("amid lamps of radiance 1 a ball that loses nothing is 1, whatever it 
   SUBCASE("a white ball") {
     object = R"(, {"sphere": {"center": [0.2, 0.1, 0], "radius": 0.5}, "surface": "white"})";
   }
-  SUBCASE("nothing, of glass that disperses") {}
-  const std::string index =
-      script.empty() && object.empty() ? "1.4 + 3e-14 / ($wavelength * $wavelength)" : "1.5";
+  std::string index = "1.5";
+  SUBCASE("nothing, of glass that disperses") { index = kDisperses; }
+  SUBCASE("a medium in glass that disperses") {
+    script = "volume v scattering = 2; end\n";
+    index = kDisperses;
+  }
   const vm::Program p = compile("surface s bsdf = dielectric(" + index + "); end\n" + script);
   const Scene s = scene_of(p, R"({"camera": {"position": [0, 0.4, 3], "target": [0, 0, 0],
     "fov": 30}, "materials": {"lamp": {"matte": 0, "emission": 1}, "white": {"matte": 1}},
