@@ -16,10 +16,15 @@ using namespace mms::renderer::test;
 
 TEST_CASE(
     "the same seed gives the same picture bit for bit on 1, 2 and 3 threads; another does not") {
+  double roughness = 0;
+  bool filled = true;
+  SUBCASE("rough glass, filled") { roughness = 0.2; }
+  SUBCASE("polished glass, filled") {}
+  SUBCASE("polished glass") { filled = false; }
   HandProgram h;
-  h.surface("ball", HandProgram::lobe(Lobe::Dielectric, {h.spectrum(1.5), h.real(0.2),
+  h.surface("ball", HandProgram::lobe(Lobe::Dielectric, {h.spectrum(1.5), h.real(roughness),
                                                          h.spectrum(1), h.spectrum(1), h.real(0)}));
-  h.volume("ball", 2, 0.1);
+  if (filled) h.volume("ball", 2, 0.1);
   const Scene s = builtin(h.program, "sphere");
   const Film one = run(h.program, s, options(48, 20, 1)).film;
   const Film two = run(h.program, s, options(48, 20, 2)).film;
