@@ -237,6 +237,51 @@ TEST_CASE("how rays by way of a ball spread is the quotient of small differences
   for (const int n : cases) CHECK(n > 80);
 }
 
+TEST_CASE("next to the ball, on its axis, and at every scale rays and densities are finite") {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> u(0, 1);
+  const materials::Layout layout(vm::MaterialLayout{
+      {{int(materials::Lobe::Mirror), {{vm::SlotType::Spectrum, true, 0}}, {}}}});
+  const auto power = [&](double from, double to) {
+    return std::pow(10, from + (to - from) * u(random));
+  };
+  const auto direction = [&] {
+    const double z = 2 * u(random) - 1, phi = 2 * kPi<double> * u(random), s = std::sqrt(1 - z * z);
+    return Vec3d{s * std::cos(phi), s * std::sin(phi), z};
+  };
+  int found = 0;
+  for (int i = 0; i < (kSanitized ? 2000 : 100000); ++i) {
+    const PolishedBall ball{0, direction() * power(-3, 3), power(-3, 3), &layout};
+    const BallOptics o = optics(i % 4 == 0 ? 1.01001 : 1.01 + power(-3, 0.5));
+    // A distance from the surface, inside or outside.
+    const auto away = [&](bool inside) {
+      return ball.radius * (inside ? 1 - std::min(1.0, power(-12, 0)) : 1 + power(-12, 8));
+    };
+    const Vec3d d = direction();
+    const Vec3d from = ball.centre + d * away(i % 3 == 0);
+    const Vec3d across =
+        i % 2 ? direction() : d * (i % 5 ? 1.0 : -1.0) + direction() * power(-14, 0);
+    SurfacePoint to;
+    to.position = ball.centre + normalize(across) * away(false);
+    to.geometric_normal = direction();
+    std::array<BallRay, kMostBallRays> rays;
+    const int count = rays_by(ball, o, from, to.position, rays);
+    REQUIRE(count <= kMostBallRays);
+    for (int k = 0; k < count; ++k) {
+      const BallRay& ray = rays[std::size_t(k)];
+      const BallWay way{ray.course, o.index, ray.cosine};
+      const double sum = dot(ray.entry, ray.entry) + dot(ray.exit, ray.exit) + ray.cosine;
+      CHECK(std::isfinite(sum));
+      const double spread = spread_by(ball, way, from, to.position);
+      const double density = density_by(ball, way, from, to, 1, normalize(ray.exit - to.position));
+      CHECK_MESSAGE((spread >= 0 && std::isfinite(spread)), i);
+      CHECK_MESSAGE((density >= 0 && std::isfinite(density)), i);
+      ++found;
+    }
+  }
+  CHECK(found > (kSanitized ? 500 : 30000));
+}
+
 TEST_CASE("light from endlessly far is what light from very far comes to") {
   const materials::Layout layout(vm::MaterialLayout{
       {{int(materials::Lobe::Mirror), {{vm::SlotType::Spectrum, true, 0}}, {}}}});
