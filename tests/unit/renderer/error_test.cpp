@@ -65,6 +65,18 @@ Errors of_renders(const vm::Program& program, const Scene& scene, RenderOptions 
 /// Every integrand is that of all pixels, so chance does not even out between them as in a picture.
 constexpr double kAlike = 1.75;
 
+/// A small picture of the default scene.
+struct MatteBall {
+  HandProgram h;
+  Result<Scene> scene;
+  RenderOptions options;
+
+  MatteBall() : scene((h.matte("matte", 0.5), load_scene(h.program, {"sphere", "matte", ""}))) {
+    REQUIRE(bool(scene));
+    options.width = options.height = 40;
+  }
+};
+
 }  // namespace
 
 TEST_CASE("independent samples: the error stated is the error") {
@@ -139,39 +151,31 @@ TEST_CASE("pictures: stated and real error agree") {
 }
 
 TEST_CASE("a picture that ends by error does so within an eighth of a doubling") {
-  HandProgram h;
-  h.matte("matte", 0.5);
-  const auto scene = load_scene(h.program, {"sphere", "matte", ""});
-  REQUIRE(bool(scene));
-  RenderOptions o;
-  o.width = o.height = 40;
+  MatteBall ball;
+  RenderOptions& o = ball.options;
   for (const int n : {9, 18, 36, 144}) {
     CAPTURE(n);
     o.samples = n;
     o.error = 0;
-    const auto known = render(h.program, *scene, o);
+    const auto known = render(ball.h.program, *ball.scene, o);
     REQUIRE(bool(known));
     o.samples = 256;
     o.error = known->report.rmse;  // which no picture of fewer samples states
-    const auto r = render(h.program, *scene, o);
+    const auto r = render(ball.h.program, *ball.scene, o);
     REQUIRE(bool(r));
     CHECK(r->report.samples == n);
   }
 }
 
 TEST_CASE("variances of a picture add up to its error, and a picture that ends by error has it") {
-  HandProgram h;
-  h.matte("matte", 0.5);
-  const auto scene = load_scene(h.program, {"sphere", "matte", ""});
-  REQUIRE(bool(scene));
-  RenderOptions o;
-  o.width = o.height = 40;
+  MatteBall ball;
+  RenderOptions& o = ball.options;
   o.samples = 4096;
   o.error = 0.012;
   std::vector<std::array<double, 3>> first;
   for (int threads : {1, 2, 3}) {
     o.threads = threads;
-    const auto r = render(h.program, *scene, o);
+    const auto r = render(ball.h.program, *ball.scene, o);
     REQUIRE(bool(r));
     CHECK(r->report.error_reached);
     CHECK_FALSE(r->report.stopped);
@@ -185,7 +189,7 @@ TEST_CASE("variances of a picture add up to its error, and a picture that ends b
   }
   o.error = 0;
   o.seconds = 1e-9;
-  const auto least = render(h.program, *scene, o);
+  const auto least = render(ball.h.program, *ball.scene, o);
   REQUIRE(bool(least));
   CHECK(least->report.samples == 1);
   CHECK_FALSE(least->report.stopped);
