@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "materials/bsdf.h"
+#include "renderer/vertex.h"
 #include "renderer/world.h"
 
 namespace mms::renderer {
@@ -117,19 +118,17 @@ BallOptics::BallOptics(const materials::Layout& layout, const float* params) {
 
 BallShare share_of(const PolishedBall& ball, const float* params, const BallOptics& optics,
                    const BallRay& ray) {
-  constexpr float kLast = 1 - 0x1p-24f;  // to let light through is the last that a lobe may do
   const bool mirrored = ray.course == Course::Mirrored, through = ray.course == Course::Through;
   const double sine = cosine_of(ray.cosine), inside = sine / double(optics.index);
   const Vec3f view = mirrored || through ? Vec3f{float(sine), 0, float(ray.cosine)}
                                          : Vec3f{float(inside), 0, -float(cosine_of(inside))};
   // What narrows radiance on the way in widens it on the way out.
   const auto mode = through ? materials::Mode::Importance : materials::Mode::Radiance;
-  const auto s =
-      materials::Bsdf<float>(*ball.layout, params).sample(view, mirrored ? 0 : kLast, 0, 0, mode);
+  const auto s = materials::Bsdf<float>(*ball.layout, params)
+                     .sample(view, mirrored ? 0 : kLastWay, 0, 0, mode);
   if (!s || s->transmitted == mirrored) return {};
   const Spectrumf once = s->f * std::abs(s->wi.z);
-  return {through ? once * once : once,
-          Spectrumf::map([](float p) { return p > 0 ? 1.0f : 0.0f; }, s->pdf)};
+  return {through ? once * once : once, possible(s->pdf)};
 }
 
 int rays_by(const PolishedBall& ball, const BallOptics& optics, Vec3d from, Vec3d to,
@@ -231,8 +230,6 @@ double far_density_by(const PolishedBall& ball, const BallWay& way, Vec3d from, 
 std::vector<PolishedBall> polished_balls(const SceneData& scene, const Compiled& compiled,
                                          bool plain) {
   std::vector<PolishedBall> balls;
-  Scripts scripts(compiled);
-  std::vector<float> params(std::size_t(compiled.max_params()));
   const Cluster cluster = sample_cluster(0.5);
   for (int i = 0; i < int(scene.objects.size()) && balls.size() < kMostBalls; ++i) {
     const Object& o = scene.objects[i];
@@ -245,12 +242,14 @@ std::vector<PolishedBall> polished_balls(const SceneData& scene, const Compiled&
     // Of what lets light through it is known of one how rays go.
     if (c.material.transmits() && nodes[0].lobe != materials::Lobe::Dielectric) continue;
     if (!plain && !alone(scene, compiled, i)) continue;
+    Scripts scripts(compiled);
     ScriptPoint point;
     point.object = &o;
     point.cluster = &cluster;
     const ScriptPoint* const lane = &point;
     scripts.run(*d, EntryKind::Shade, {&lane, 1});
     if (scripts.given_up(0)) continue;
+    std::vector<float> params(std::size_t(c.material.param_count()));
     scripts.params(d->shade.material, 0, params.data());
     if (BallOptics(c.material, params.data()).any())
       balls.push_back({i, sphere->centre, sphere->radius, &c.material, plain});

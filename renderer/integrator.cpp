@@ -5,17 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "materials/bsdf.h"
-#include "materials/phase.h"
 #include "renderer/batches.h"
-#include "renderer/vertex.h"
+#include "renderer/scatterer.h"
 
 namespace mms::renderer {
 namespace {
-
-using materials::Bsdf;
-using materials::Mode;
-using materials::Phase;
 
 /// Scattering events before Russian roulette begins.
 constexpr int kFirstRoulette = 3;
@@ -46,9 +40,6 @@ constexpr std::size_t kTogetherUnasked = 256;
 /// Share of them that is left for the next time, lest few long ways hold up the rest.
 constexpr double kLeftFlying = 0.5;
 
-/// Numbers for rays by balls, beside the streams of flights.
-constexpr std::uint32_t kBallStream = 0xffffffff;
-
 /// `matte`: what a surface of the scene scatters by, and the default of a script that gave up.
 const materials::Layout& matte_layout() {
   static const materials::Layout layout(
@@ -59,11 +50,6 @@ bool any_nan(std::span<const float> numbers) {
   return std::any_of(numbers.begin(), numbers.end(), [](float x) { return std::isnan(x); });
 }
 
-/// 1 where there is a chance at all, else 0.
-Spectrumf possible(const Spectrumf& chances) {
-  return Spectrumf::map([](float chance) { return chance > 0 ? 1.0f : 0.0f; }, chances);
-}
-
 const materials::Layout& isotropic_layout() {
   static const materials::Layout layout(
       vm::MaterialLayout{{{int(materials::Lobe::Isotropic), {}, {}}}});
@@ -71,95 +57,6 @@ const materials::Layout& isotropic_layout() {
 }
 
 }  // namespace
-
-/// A direction and what is scattered from there.
-struct Integrator::Sampled {
-  Vec3d wi;
-  Spectrumf f, pdf;
-  bool specular = false;
-};
-
-/// Scattering at a vertex with one face for surfaces and volumes. Values hold the cosine.
-struct Integrator::Scatterer {
-  const materials::Layout& layout;
-  const float* params;
-  bool medium = false;
-  Frame<double> frame;
-  Vec3f view;                  ///< of a surface, in its frame
-  Bsdf<float>::Choice choice;  ///< likewise
-  int directions = 1;          ///< that are drawn: densities are of all of them
-
-  /// Of a medium.
-  Scatterer(const materials::Layout& l, const float* p) : layout(l), params(p), medium(true) {}
-  /// Of a surface, seen along `from`.
-  Scatterer(const materials::Layout& l, const float* p, const Frame<double>& f, Vec3d from)
-      : layout(l),
-        params(p),
-        frame(f),
-        view(f.to_local(from)),
-        choice(Bsdf<float>(l, p).choose(view)) {}
-
-  /// Normal of the `Receiver` there. What `consistent` leaves out comes from below the horizon.
-  Vec3f receiver(const ScriptPoint& p) const {
-    if (medium || layout.transmits()) return {};
-    const Vec3d n = p.surface.geometric_normal;
-    return Vec3f(dot(n, p.view) < 0 ? -n : n);
-  }
-
-  /// Whether no direction is much likelier than others.
-  bool even() const {
-    return layout.nodes().size() == 1 && layout.nodes()[0].lobe == materials::Lobe::Matte;
-  }
-
-  bool can_connect() const {
-    return medium || (layout.has_smooth() && !Bsdf<float>(layout, params).specular_only());
-  }
-
-  Sampled evaluate(const ScriptPoint& p, Vec3d wi) const {
-    if (medium) {
-      const Phase<float> phase(layout, params);
-      const auto lobes = phase.evaluate(Vec3f(p.view), Vec3f(wi));
-      return {wi, lobes.f, lobes.pdf * float(directions)};
-    }
-    if (!consistent(p.surface, frame, wi)) return {wi, {}, {}};
-    const Bsdf<float> bsdf(layout, params);
-    const Vec3f local(frame.to_local(wi));
-    const auto lobes = bsdf.evaluate(view, local, Mode::Radiance, choice);
-    return {wi, lobes.f * std::abs(local.z), lobes.pdf * float(directions)};
-  }
-
-  std::optional<Sampled> sample(const ScriptPoint& p, float u_lobe, float u, float v) const {
-    if (medium) {
-      const auto s = Phase<float>(layout, params).sample(Vec3f(p.view), u_lobe, u, v);
-      if (!s) return {};
-      return Sampled{Vec3d(s->wi), s->f, s->pdf * float(directions)};
-    }
-    const auto s = Bsdf<float>(layout, params).sample(view, u_lobe, u, v, Mode::Radiance, choice);
-    if (!s) return {};
-    const Vec3d wi = normalize(frame.to_world(Vec3d(s->wi)));
-    if (!consistent(p.surface, frame, wi)) return {};
-    return Sampled{wi, s->f * std::abs(s->wi.z), s->pdf * float(directions), s->specular};
-  }
-
-  /// Whether light is only mirrored and bent here, each in one direction.
-  bool divides() const {
-    return layout.nodes().size() == 1 && layout.transmits() && !can_connect();
-  }
-
-  /// Where that is so, all ways on, at most two, as if none were a matter of chance: a wavelength
-  /// as the hero would have gone every way that it can go.
-  int all_ways(const ScriptPoint& p, std::array<Sampled, 2>& ways) const {
-    constexpr float kLast = 1 - 0x1p-24f;
-    int count = 0;
-    for (const float u_lobe : {0.0f, kLast}) {
-      const auto s = sample(p, u_lobe, 0, 0);
-      if (!s || (count > 0 && dot(s->wi, ways[0].wi) == dot(ways[0].wi, ways[0].wi))) continue;
-      ways[count] = *s;
-      ways[count++].pdf = possible(s->pdf);
-    }
-    return count;
-  }
-};
 
 Integrator::Integrator(const World& world)
     : world_(world),
@@ -241,23 +138,6 @@ void Integrator::receive(const Flight& f) {
   paths_[f.path].lit += f.carried.weighted(Technique::Light, f.light_density, world_.estimator);
 }
 
-/// Sends a shadow ray on that has come to where it leaves a ball; false if there is none.
-bool Integrator::go_beyond(Flight f) {
-  if (f.beyond < 0) return false;
-  const Beyond b = beyond_[std::size_t(f.beyond)];
-  free_beyond_.push_back(std::exchange(f.beyond, -1));
-  if (f.end != End::Free) return false;
-  world_.cross(f.media, b.object, false);
-  f.forget_media();
-  f.origin = b.origin;
-  f.direction = b.direction;
-  f.t_max = b.distance;
-  f.t = 0;
-  f.end = End::Flying;
-  next_.push_back(f);
-  return true;
-}
-
 /// Adds what shadow rays found and what the environment sends along rays that left the scene, and
 /// orders the rest by what has to be run for them. What is not done stays for the next time.
 void Integrator::gather() {
@@ -300,38 +180,6 @@ void Integrator::add_emission(const Vertex& v, const Spectrumf& emitted) {
   if (emitted.is_black() || v.from->emission_seen) return;
   paths_[v.from->path].radiance +=
       v.from->carried.weighted(Technique::Scattering, light_density(v), world_.estimator) * emitted;
-}
-
-/// Density, per steradian, of drawing the light that a path has met at `v` from where it was last
-/// scattered, by the way that it took.
-double Integrator::light_density(const Vertex& v) const {
-  const Detour& d = paths_[v.from->path].detour;
-  const int object = v.from->hit.object;
-  if (d.ball < 0) return world_.lights.pdf(v.from->left(), object, v.point.surface);
-  if (d.inside) return 0;
-  return density_by(world_.balls[d.ball], way(v.from->path, d), Vec3d(d.origin), v.point.surface,
-                    world_.lights.pdf(d.left(), object, v.point.surface), v.point.view) /
-         rays_out(v.from->path, v.point.surface.position);
-}
-
-/// The same of the environment, for a flight that has left the scene.
-double Integrator::environment_density(const Flight& f, Vec3d direction) const {
-  const Detour& d = paths_[f.path].detour;
-  if (d.ball < 0) return world_.lights.pdf_environment(f.left(), direction);
-  if (d.inside) return 0;
-  const PolishedBall& ball = world_.balls[d.ball];
-  return far_density_by(ball, way(f.path, d), Vec3d(d.origin), direction,
-                        world_.lights.pdf_environment(d.left(), direction)) /
-         rays_out(f.path, far_point(ball, direction));
-}
-
-/// Among how many rays one is drawn where a path has left a ball from inside, or 1.
-int Integrator::rays_out(int path, Vec3d to) const {
-  const Detour& d = paths_[path].detour;
-  if (d.course == Course::Mirrored || d.course == Course::Through) return 1;
-  std::array<BallRay, kMostBallRays> rays;
-  return std::max(
-      1, rays_by(world_.balls[d.ball], optics_[at_ball(path, d.ball)], Vec3d(d.origin), to, rays));
 }
 
 /// One batch: vertices that wear the same surface or lie in volumes of the same descriptor.
@@ -517,38 +365,6 @@ void Integrator::connect(const Vertex& v, const Scatterer& s, int draws) {
   }
 }
 
-/// What is known of the way by a ball, if a path goes on along one.
-Integrator::Detour Integrator::next_detour(const Vertex& v, const Sampled& sampled) const {
-  if (!sampled.specular || world_.balls.empty()) return {};
-  const Flight& f = *v.from;
-  const int ball = world_.ball_of(f.hit.object);
-  if (ball < 0) return {};
-  const Vec3d n = v.point.surface.geometric_normal;
-  const double in = dot(v.point.view, n);
-  const bool crosses = (dot(sampled.wi, n) < 0) == (in > 0);
-  Detour d = paths_[f.path].detour;
-  if (d.ball >= 0) {
-    if (d.ball != ball || !d.inside || in > 0 || !crosses) return {};
-    d.inside = false;
-    return d;
-  }
-  const BallOptics& optics = optics_[at_ball(f.path, ball)];
-  if (!(f.carried.light_pdf.max() > 0) || !(crosses ? optics.index > 0 : optics.mirrors)) return {};
-  if (in > 0) {
-    if (!world_.balls[ball].from_outside) return {};
-    return {ball,     crosses ? Course::Through : Course::Mirrored,
-            crosses,  float(in),
-            f.origin, f.receiver,
-            f.draws};
-  }
-  if (!crosses) return {};
-  const bool outwards = dot(Vec3d(f.origin) - world_.balls[ball].centre, Vec3d(f.direction)) > 0;
-  return {ball,     outwards ? Course::Out : Course::OutPast,
-          false,    float(dot(sampled.wi, n)),
-          f.origin, f.receiver,
-          f.draws};
-}
-
 /// Makes the shadow rays to a point of a light: straight, and by way of balls.
 void Integrator::connect(const Vertex& v, const Scatterer& s, const LightSample& light) {
   if (!(light.pdf > 0)) return;
@@ -556,86 +372,17 @@ void Integrator::connect(const Vertex& v, const Scatterer& s, const LightSample&
   Flight f = *v.from;
   if (!s.medium) follow(f, v, light.direction);
   if (world_.sealed_in(f.media)) return;
+  const Sampled towards = s.evaluate(v.point, light.direction);
+  if (towards.f.is_black()) return;
   const Vec3f origin =
       s.medium ? Vec3f(v.point.surface.position) : ray_origin(v.point.surface, light.direction);
-  send_to_light(f, v, s.evaluate(v.point, light.direction), light, origin);
-}
-
-/// The shadow rays that go by way of a ball: first to where they leave it.
-void Integrator::connect_by(int number, const Vertex& v, const Scatterer& s,
-                            const LightSample& light) {
-  Path& p = paths_[v.from->path];
-  const PolishedBall& ball = world_.balls[std::size_t(number)];
-  const std::size_t at = at_ball(v.from->path, number);
-  const bool far = light.object == kEnvironment;
-  const Vec3d from = v.point.surface.position,
-              to = far ? far_point(ball, light.direction) : light.surface.position;
-  const bool inside = length(from - ball.centre) < ball.radius;
-  BallOptics optics = optics_[at];
-  if (!optics.any() || !(inside || ball.from_outside)) return;
-  const float u = inside || optics.mirrors ? p.sampler.hashed(kBallStream, p.choices++) : 0;
-  if (!inside && optics.mirrors) optics.mirrors = u < mirror_share(ball, from);
-  std::array<BallRay, kMostBallRays> found;
-  std::span<const BallRay> rays(found.data(), std::size_t(rays_by(ball, optics, from, to, found)));
-  // Of those from inside one is taken: a path may have one shadow ray on its way.
-  const double among = inside ? double(rays.size()) : 1;
-  if (inside && !rays.empty())
-    rays = rays.subspan(std::min(std::size_t(u * among), rays.size() - 1), 1);
-  for (const BallRay& ray : rays) {
-    const int events = ray.course == Course::Through ? 2 : 1;
-    if (p.depth + events > world_.max_depth) continue;
-    const Vec3d direction = normalize(ray.entry - from);
-    Sampled towards = s.evaluate(v.point, direction);
-    if (towards.f.is_black()) continue;
-    const BallShare share =
-        share_of(ball, &ball_params_[at * std::size_t(world_.compiled.max_params())], optics, ray);
-    towards.f *= share.f;
-    const BallWay way{ray.course, optics.index, ray.cosine};
-    LightSample beyond = light;
-    if (far) {
-      beyond.pdf = far_density_by(ball, way, from, light.direction, light.pdf) / among;
-    } else {
-      beyond.direction = normalize(to - ray.exit);
-      beyond.pdf = density_by(ball, way, from, light.surface, light.pdf, -beyond.direction) / among;
-    }
-    if (towards.f.is_black() || !(beyond.pdf > 0)) continue;
-    const Sphere sphere{ball.centre, ball.radius};
-    const SurfacePoint entry = place_at(sphere, ray.entry), exit = place_at(sphere, ray.exit);
-    const Vec3f origin = s.medium ? Vec3f(from) : ray_origin(v.point.surface, direction);
-    const Vec3d chord = ray.exit - ray.entry;
-    if (world_.plain && !flights_.open(origin, ray_origin(entry, -direction))) continue;
-    if (ray.course == Course::Through &&
-        !flights_.open(ray_origin(entry, chord), ray_origin(exit, -chord)))
-      continue;
-    Flight f = *v.from;
-    f.carried.pdf *= share.possible;
-    const std::size_t sent = shadows_.size();
-    send_to_light(f, v, towards, beyond, ray_origin(exit, beyond.direction));
-    if (!world_.plain && shadows_.size() > sent)
-      leave_first(shadows_.back(), ball.object, origin, ray_origin(exit, -direction));
-  }
-}
-
-/// Lets a shadow ray come from `origin` inside a ball to `exit` first, before it goes its way.
-void Integrator::leave_first(Flight& f, int ball, Vec3f origin, Vec3f exit) {
-  if (free_beyond_.empty()) {
-    free_beyond_.push_back(int(beyond_.size()));
-    beyond_.emplace_back();
-  }
-  f.beyond = free_beyond_.back();
-  free_beyond_.pop_back();
-  beyond_[std::size_t(f.beyond)] = {ball, f.origin, f.direction, f.t_max};
-  const Vec3f way = exit - origin;
-  f.origin = origin;
-  f.t_max = length(way);
-  f.direction = f.t_max > 0 ? way / f.t_max : f.direction;
+  send_to_light(f, v, towards, light, origin);
 }
 
 /// Makes the shadow ray of a vertex to a point of a light; thesis (4.15). `f`: the flight that came
 /// there. It leaves `origin`, which is elsewhere where light goes by way of something.
 void Integrator::send_to_light(Flight& f, const Vertex& v, const Sampled& towards,
                                const LightSample& light, Vec3f origin) {
-  if (!(light.pdf > 0) || towards.f.is_black()) return;
   const Path& p = paths_[v.from->path];
   f.carried.beta *= towards.f;
   f.carried.light_pdf = f.carried.pdf;

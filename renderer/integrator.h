@@ -91,7 +91,7 @@ class Integrator {
   void make_room(std::size_t more);
   PathView view(Path& p) const;
   void start(const PixelSample& pixel, int sample, FilmSample& stream);
-  bool go_beyond(Flight f);
+  bool go_beyond(const Flight& arrived);
   void receive(const Flight& f);
   void gather();
   void ask_surroundings();

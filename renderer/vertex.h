@@ -9,6 +9,14 @@
 
 namespace mms::renderer {
 
+/// The number that draws the last way in which a lobe may send light on: to let it through.
+inline constexpr float kLastWay = 1 - 0x1p-24f;
+
+/// 1 where there is a chance at all, else 0.
+inline Spectrumf possible(const Spectrumf& chances) {
+  return Spectrumf::map([](float chance) { return chance > 0 ? 1.0f : 0.0f; }, chances);
+}
+
 /// The frame that scattering is evaluated in. The normal of `s` is tilted by the gradient of the
 /// height field, n - g_u tangent - g_v bitangent, then held back where it would turn away from
 /// `view` or mirror it into the surface: a bump can not show its own back.
