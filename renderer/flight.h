@@ -51,9 +51,8 @@ struct Coefficients {
 
 struct Flight {
   Vec3f origin, direction;
-  Vec3f receiver;  ///< normal of the Receiver that it left as a scattered ray
-  int draws = 0;   ///< likewise
-  int path = 0;    ///< whose it is
+  Receives receives;  ///< what it left as a scattered ray
+  int path = 0;       ///< whose it is
   Errand errand = Errand::Path;
   End end = End::Flying;
   bool emission_seen = false;  ///< of the crossing that `hit` is
@@ -76,7 +75,7 @@ struct Flight {
   Spectrumf drawn_scattering;
 
   /// For the density of light sampling where the flight began.
-  Receiver left() const { return {Vec3d(origin), Vec3d(receiver), draws}; }
+  Receiver left() const { return {Vec3d(origin), receives}; }
 
   int crossings = -1;  ///< where Flights keeps what lies on its way; -1 before it began
 

@@ -26,7 +26,7 @@ constexpr int kDirectionsOfFirst = 2;
 /// and then in several directions, as those differ most where it mirrors a lamp about as wide as
 /// its lobe.
 constexpr int kEachLightOfEven = 1, kEachLightOfUneven = 2;
-constexpr int kDrawsOfUneven = 4;
+constexpr int kDrawsOfUneven = 8;
 
 /// Paths are given up below this mean contribution only: in glass of index n radiance is 1 / n^2 of
 /// what it is again outside, so a path that carries a third may have lost nothing.
@@ -291,7 +291,7 @@ void Integrator::go_on(const Vertex& v, const Scatterer& s, int draws) {
     if (!sampled) continue;
     Flight* f = leave(v, s, *sampled, i > 0 ? divide(v.from->path) : v.from->path);
     if (!f) continue;
-    f->draws = draws;
+    f->receives.draws = draws;
     // Of ways that are followed together some carry next to nothing.
     if (!survives(f->carried, p.specular > 0 ? kFirstRoulette : p.depth, roulette))
       next_.pop_back();
@@ -330,8 +330,7 @@ Flight* Integrator::leave(const Vertex& v, const Scatterer& s, const Sampled& sa
     follow(f, v, sampled.wi);
   }
   f.direction = Vec3f(sampled.wi);
-  f.receiver = s.receiver(v.point);
-  f.draws = 0;
+  f.receives = s.receives(v.point);
   f.end = End::Flying;
   f.emission_seen = false;
   f.t = 0;
@@ -347,7 +346,7 @@ void Integrator::connect(const Vertex& v, const Scatterer& s, int draws) {
   const Path& p = paths_[v.from->path];
   const Vec3d from = v.point.surface.position;
   const int bounce = p.depth - 1, pair = pair_of_bounce(bounce, kLight);
-  const Receiver receiver(from, Vec3d(s.receiver(v.point)));
+  const Receiver receiver(from, s.receives(v.point));
   if (draws == 0) {
     const auto [light_u, light_v] = p.sampler.pair(pair);
     connect(v, s, world_.lights.sample(receiver, light_u, light_v));
@@ -358,7 +357,7 @@ void Integrator::connect(const Vertex& v, const Scatterer& s, int draws) {
     for (int draw = 0; draw < draws; ++draw) {
       const auto [light_u, light_v] =
           p.sampler.pair(i == 0 ? pair : pair_of_light(bounce, i), draw, draws);
-      LightSample light = world_.lights.sample_one(i, from, light_u, light_v);
+      LightSample light = world_.lights.sample_one(i, receiver, light_u, light_v);
       light.pdf *= draws;
       connect(v, s, light);
     }

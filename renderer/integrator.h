@@ -38,12 +38,12 @@ class Integrator {
   struct Detour {
     int ball = -1;  ///< index into World::balls; -1: on no such way
     Course course = Course::Mirrored;
-    bool inside = false;     ///< has not left the ball yet
-    float cosine = 0;        ///< to the normal, where it entered
-    Vec3f origin, receiver;  ///< of the Flight that came to the ball
-    int draws = 0;           ///< likewise
+    bool inside = false;  ///< has not left the ball yet
+    float cosine = 0;     ///< to the normal, where it entered
+    Vec3f origin;         ///< of the Flight that came to the ball
+    Receives receives;    ///< likewise
 
-    Receiver left() const { return {Vec3d(origin), Vec3d(receiver), draws}; }
+    Receiver left() const { return {Vec3d(origin), receives}; }
   };
   struct Path {
     Sampler sampler;

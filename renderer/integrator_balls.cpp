@@ -64,17 +64,14 @@ Integrator::Detour Integrator::next_detour(const Vertex& v, const Sampled& sampl
   if (!(f.carried.light_pdf.max() > 0) || !(crosses ? optics.index > 0 : optics.mirrors)) return {};
   if (in > 0) {
     if (!world_.balls[ball].from_outside) return {};
-    return {ball,     crosses ? Course::Through : Course::Mirrored,
-            crosses,  float(in),
-            f.origin, f.receiver,
-            f.draws};
+    return {ball,      crosses ? Course::Through : Course::Mirrored, crosses, float(in), f.origin,
+            f.receives};
   }
   if (!crosses) return {};
   const bool outwards = dot(Vec3d(f.origin) - world_.balls[ball].centre, Vec3d(f.direction)) > 0;
   return {ball,     outwards ? Course::Out : Course::OutPast,
           false,    float(dot(sampled.wi, n)),
-          f.origin, f.receiver,
-          f.draws};
+          f.origin, f.receives};
 }
 
 /// The shadow rays that go by way of a ball: first to where they leave it.

@@ -6,6 +6,7 @@
 
 #include "base/warp.h"
 #include "renderer/latlong.h"
+#include "renderer/light_places.h"
 
 namespace mms::renderer {
 namespace {
@@ -56,17 +57,69 @@ double to_solid_angle(double pdf_area, Vec3d from, const SurfacePoint& at) {
   return cosine > 0 ? pdf_area * d2 / cosine : 0;
 }
 
-SurfacePoint sample_sphere(const Sphere& s, Vec3d from, double u, double v) {
-  if (!outside(s, from)) return place_at(s, s.centre + square_to_sphere(u, v) * s.radius);
-  const double one_minus_cos = u * one_minus_cos_cone(s, from);
-  const double sine = std::sqrt(one_minus_cos * (2 - one_minus_cos));
-  const Frame<double> f = Frame<double>::around(normalize(s.centre - from));
-  const Vec3d d =
-      f.to_world({sine * std::cos(kTwoPi * v), sine * std::sin(kTwoPi * v), 1 - one_minus_cos});
-  const Roots r = intersect(s, from, d, 0, 1e300);
-  // At the rim rounding may miss the sphere: its point nearest to the ray.
-  return place_at(s, from + d * (r.count > 0 ? r.t[0] : dot(s.centre - from, d)));
+/// Whether light is drawn by what comes from each place on a light, of that radius. Where more than
+/// the cosine matters it is not; places on a small light hardly differ; and those next to a large
+/// one differ too much for what is known of a few.
+bool tells_apart(const Receiver& at, double radius, Vec3d centre) {
+  const Vec3d to = centre - at.position;
+  const double d2 = dot(to, to), r2 = radius * radius;
+  return at.even && r2 > 1e-3 * d2 && r2 < d2;
 }
+
+/// What a matte receiver gets from a place on a flat light, but for a factor that is the same for
+/// all places.
+double received(const Receiver& at, Vec3d place) {
+  const Vec3d to = place - at.position;
+  const double d2 = dot(to, to);
+  return d2 > 0 ? std::max(0.0, dot(to, at.normal)) / (d2 * d2) : 0;
+}
+
+/// Density over the edges of a quad.
+SquareDensity places(const Quad& q, const Receiver& from) {
+  return SquareDensity(
+      [&](double u, double v) { return received(from, q.corner + q.edge_u * u + q.edge_v * v); });
+}
+
+/// Density over a disc of radius 1, from its middle and four places on the circle that halves it.
+DiscDensity places(const Disc& d, const Receiver& from) {
+  const double r = d.radius * std::numbers::sqrt2 / 2;
+  const auto at = [&](Vec3d side) { return received(from, d.centre + side * r); };
+  const double right = at(d.axes.s), left = at(-d.axes.s), up = at(d.axes.t), down = at(-d.axes.t);
+  const double centre = received(from, d.centre);
+  return {centre, (right + left + up + down) / 2 - centre, (right - left) / std::numbers::sqrt2,
+          (up - down) / std::numbers::sqrt2};
+}
+
+/// The cone that a sphere fills: directions of even solid angle are places on a disc.
+struct Cone {
+  Frame<double> axes;
+  double one_minus_cos;
+  DiscDensity density{1, 1, 0, 0};
+
+  Cone(const Sphere& s, const Receiver& from)
+      : axes(Frame<double>::around(normalize(s.centre - from.position))),
+        one_minus_cos(one_minus_cos_cone(s, from.position)) {
+    if (!tells_apart(from, s.radius, s.centre)) return;
+    const Vec3d n = axes.to_local(from.normal);
+    const double sine = std::sqrt(one_minus_cos * (2 - one_minus_cos));
+    density = {std::max(0.0, n.z), std::max(0.0, n.z * (1 - one_minus_cos)), n.x * sine,
+               n.y * sine};
+  }
+
+  /// A unit vector.
+  Vec3d sample(double u, double v) const {
+    const Place p = density.sample(u, v);
+    const double c = one_minus_cos * (p.x * p.x + p.y * p.y);
+    const double stretch = std::sqrt(one_minus_cos * (2 - c));
+    return axes.to_world({p.x * stretch, p.y * stretch, 1 - c});
+  }
+  /// Per steradian.
+  double pdf(Vec3d direction) const {
+    const Vec3d d = axes.to_local(direction);
+    const double stretch = std::sqrt(one_minus_cos * (1 + std::max(0.0, d.z)));
+    return density.at(d.x / stretch, d.y / stretch) / (kTwoPi * one_minus_cos);
+  }
+};
 
 /// Mean of the cosine over a light that fills a cone of sine `blur`, `cosine` in its middle, where
 /// what lies below the horizon counts nothing; the cosine as if it were spread evenly.
@@ -276,12 +329,12 @@ double Lights::pdf_point(int object) const {
 
 LightSample Lights::sample(const Receiver& from, double u, double v) const {
   const Drawn drawn = choose(from, u);
-  LightSample s = sample_one(drawn.choice, from.position, u, v);
+  LightSample s = sample_one(drawn.choice, from, u, v);
   s.pdf *= drawn.probability;
   return s;
 }
 
-LightSample Lights::sample_one(int choice, Vec3d from, double u, double v) const {
+LightSample Lights::sample_one(int choice, const Receiver& from, double u, double v) const {
   const Choice& c = choices_[choice];
   LightSample s;
   s.object = c.object;
@@ -292,29 +345,64 @@ LightSample Lights::sample_one(int choice, Vec3d from, double u, double v) const
     return s;
   }
   const Shape& shape = scene_->objects[c.object].shape;
-  if (const Sphere* sphere = std::get_if<Sphere>(&shape)) {
-    s.surface = sample_sphere(*sphere, from, u, v);
+  const Sphere* sphere = std::get_if<Sphere>(&shape);
+  if (sphere && outside(*sphere, from.position)) {
+    const Cone cone(*sphere, from);
+    const Vec3d d = cone.sample(u, v);
+    const Roots r = intersect(*sphere, from.position, d, 0, 1e300);
+    // At the rim rounding may miss the sphere: its point nearest to the ray.
+    s.surface =
+        place_at(*sphere, from.position +
+                              d * (r.count > 0 ? r.t[0] : dot(sphere->centre - from.position, d)));
+    s.direction = normalize(s.surface.position - from.position);
+    s.pdf = far_side(s.surface, from.position) ? 0 : cone.pdf(s.direction);
+    return s;
+  }
+  double relative = 1;
+  if (!tells_apart(from, c.radius, c.centre)) {
+    s.surface = place(c, u, v);
+  } else if (const Quad* q = std::get_if<Quad>(&shape)) {
+    const SquareDensity p = places(*q, from);
+    const auto [x, y] = p.sample(u, v);
+    s.surface = place_at(*q, q->corner + q->edge_u * x + q->edge_v * y);
+    relative = p.at(x, y);
+  } else if (const Disc* d = std::get_if<Disc>(&shape)) {
+    const DiscDensity p = places(*d, from);
+    const auto [x, y] = p.sample(u, v);
+    s.surface = place_at(*d, d->centre + (d->axes.s * x + d->axes.t * y) * d->radius);
+    relative = p.at(x, y);
   } else {
     s.surface = place(c, u, v);
   }
-  const Vec3d to = s.surface.position - from;
+  const Vec3d to = s.surface.position - from.position;
   if (!(dot(to, to) > 0)) return s;
   s.direction = normalize(to);
-  s.pdf = density(c, from, s.surface);
+  s.pdf = to_solid_angle(relative / c.area, from.position, s.surface);
   return s;
 }
 
 /// Per steradian, the light being chosen.
-double Lights::density(const Choice& c, Vec3d from, const SurfacePoint& at) const {
-  if (const Sphere* s = std::get_if<Sphere>(&scene_->objects[c.object].shape))
-    if (outside(*s, from))
-      return far_side(at, from) ? 0 : 1 / (kTwoPi * one_minus_cos_cone(*s, from));
-  return to_solid_angle(1 / c.area, from, at);
+double Lights::density(const Choice& c, const Receiver& from, const SurfacePoint& at) const {
+  const Shape& shape = scene_->objects[c.object].shape;
+  if (const Sphere* s = std::get_if<Sphere>(&shape); s && outside(*s, from.position))
+    return far_side(at, from.position) ? 0
+                                       : Cone(*s, from).pdf(normalize(at.position - from.position));
+  double relative = 1;
+  if (tells_apart(from, c.radius, c.centre)) {
+    if (const Quad* q = std::get_if<Quad>(&shape)) {
+      const auto [x, y] = along_edges(*q, at.position - q->corner);
+      relative = places(*q, from).at(x, y);
+    } else if (const Disc* d = std::get_if<Disc>(&shape)) {
+      const Vec3d l = d->axes.to_local(at.position - d->centre) / d->radius;
+      relative = places(*d, from).at(l.x, l.y);
+    }
+  }
+  return to_solid_angle(relative / c.area, from.position, at);
 }
 
 double Lights::pdf(const Receiver& from, int object, const SurfacePoint& at) const {
   const int i = choice_of_[object];
-  return i < 0 ? 0 : probability(i, from) * density(choices_[i], from.position, at);
+  return i < 0 ? 0 : probability(i, from) * density(choices_[i], from, at);
 }
 
 /// Per steradian, the environment being chosen.

@@ -20,13 +20,21 @@ inline constexpr int kEnvironment = -1;
 /// Up to so many lights are weighed one by one for each point; more are kept in a tree.
 inline constexpr int kLightsWeighed = 32;
 
+/// What light drawing knows of that which scatters it.
+struct Receives {
+  Vec3f normal;       ///< unit, towards the only side that light matters from; zero if all do
+  bool even = false;  ///< by the cosine to it alone
+  int draws = 0;      ///< directions that are drawn towards each light; 0: one, towards one of them
+};
+
 /// Where light is to be scattered.
 struct Receiver {
-  Vec3d position;
-  Vec3d normal;   ///< unit, towards the only side that light matters from; zero if all do
-  int draws = 0;  ///< directions that are drawn towards each light; 0: one, towards one of them
+  Vec3d position, normal;
+  bool even = false;
+  int draws = 0;
 
-  Receiver(Vec3d p, Vec3d n = {}, int d = 0) : position(p), normal(n), draws(d) {}
+  Receiver(Vec3d p, const Receives& r = {})
+      : position(p), normal(r.normal), even(r.even), draws(r.draws) {}
 };
 
 /// A direction towards a light, as seen from some point.
@@ -74,7 +82,7 @@ class Lights {
   LightSample sample(const Receiver& from, double u, double v) const;
   /// Draws a direction towards the light of number `choice` in [0, count()): what `sample` does
   /// once it has chosen.
-  LightSample sample_one(int choice, Vec3d from, double u, double v) const;
+  LightSample sample_one(int choice, const Receiver& from, double u, double v) const;
   int count() const { return int(choices_.size()); }
   /// Whether the light of that number lies where nothing of it matters to the receiver.
   bool below_horizon(int choice, const Receiver& from) const;
@@ -113,7 +121,7 @@ class Lights {
     double probability;
   };
   Drawn choose(const Receiver& from, double& u) const;
-  double density(const Choice& c, Vec3d from, const SurfacePoint& at) const;
+  double density(const Choice& c, const Receiver& from, const SurfacePoint& at) const;
   double density_environment(Vec3d direction) const;
   Rgb texel(double x, double y) const;
 

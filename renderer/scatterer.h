@@ -38,16 +38,19 @@ struct Integrator::Scatterer {
         view(f.to_local(from)),
         choice(materials::Bsdf<float>(l, p).choose(view)) {}
 
-  /// Normal of the `Receiver` there. What `consistent` leaves out comes from below the horizon.
-  Vec3f receiver(const ScriptPoint& p) const {
+  /// What `consistent` leaves out comes from below the horizon.
+  Receives receives(const ScriptPoint& p) const {
     if (medium || layout.transmits()) return {};
     const Vec3d n = p.surface.geometric_normal;
-    return Vec3f(dot(n, p.view) < 0 ? -n : n);
+    return {Vec3f(dot(n, p.view) < 0 ? -n : n), even()};
   }
 
   /// Whether no direction is much likelier than others.
   bool even() const {
-    return layout.nodes().size() == 1 && layout.nodes()[0].lobe == materials::Lobe::Matte;
+    using materials::Lobe;
+    if (layout.nodes().size() != 1) return false;
+    const Lobe lobe = layout.nodes()[0].lobe;
+    return lobe == Lobe::Matte || lobe == Lobe::RoughMatte;
   }
 
   bool can_connect() const {

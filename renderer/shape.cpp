@@ -24,14 +24,6 @@ Vec3d plain_cross(Vec3d a, Vec3d b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// `q` as multiples of the edges of a quad, of its part in the quad's plane.
-std::array<double, 2> along_edges(const Quad& s, Vec3d q) {
-  const double uu = dot(s.edge_u, s.edge_u), vv = dot(s.edge_v, s.edge_v);
-  const double uv = dot(s.edge_u, s.edge_v), qu = dot(q, s.edge_u), qv = dot(q, s.edge_v);
-  const double scale = 1 / (uu * vv - uv * uv);
-  return {(qu * vv - qv * uv) * scale, (qv * uu - qu * uv) * scale};
-}
-
 /// Tangents from the derivatives of the point by u and v (any length, on the geometry), made
 /// orthonormal with the normal; and the change of uv along them.
 void set_tangents(SurfacePoint& s, Vec3d dp_du, Vec3d dp_dv) {
@@ -54,24 +46,14 @@ void set_flat(SurfacePoint& s, Vec3d n) { s.geometric_normal = s.normal = n; }
 /// of them at most, and 2 for the rays' own arithmetic.
 double rounding_error(Vec3d p) { return 4 * kFloatEpsilon * largest(p); }
 
-SurfacePoint place_at(const Quad& s, Vec3d p) {
-  SurfacePoint r;
-  const Vec3d n = normalize(plain_cross(s.edge_u, s.edge_v));
-  r.position = p - n * dot(n, p - s.corner);
-  r.error = rounding_error(r.position);
-  set_flat(r, n);
-  return r;
-}
-
-SurfacePoint place_at(const Disc& s, Vec3d p) {
-  SurfacePoint r;
-  r.position = p - s.axes.n * dot(s.axes.n, p - s.centre);
-  r.error = rounding_error(r.position);
-  set_flat(r, s.axes.n);
-  return r;
-}
-
 }  // namespace
+
+std::array<double, 2> along_edges(const Quad& s, Vec3d q) {
+  const double uu = dot(s.edge_u, s.edge_u), vv = dot(s.edge_v, s.edge_v);
+  const double uv = dot(s.edge_u, s.edge_v), qu = dot(q, s.edge_u), qv = dot(q, s.edge_v);
+  const double scale = 1 / (uu * vv - uv * uv);
+  return {(qu * vv - qv * uv) * scale, (qv * uu - qu * uv) * scale};
+}
 
 Roots intersect(const Sphere& s, Vec3d o, Vec3d d, double t_min, double t_max) {
   const Vec3d oc = o - s.centre;
@@ -137,6 +119,23 @@ SurfacePoint place_at(const Sphere& s, Vec3d p) {
   r.position = s.centre + n * s.radius;
   r.error = rounding_error(r.position);
   set_flat(r, n);
+  return r;
+}
+
+SurfacePoint place_at(const Quad& s, Vec3d p) {
+  SurfacePoint r;
+  const Vec3d n = normalize(plain_cross(s.edge_u, s.edge_v));
+  r.position = p - n * dot(n, p - s.corner);
+  r.error = rounding_error(r.position);
+  set_flat(r, n);
+  return r;
+}
+
+SurfacePoint place_at(const Disc& s, Vec3d p) {
+  SurfacePoint r;
+  r.position = p - s.axes.n * dot(s.axes.n, p - s.centre);
+  r.error = rounding_error(r.position);
+  set_flat(r, s.axes.n);
   return r;
 }
 

@@ -91,6 +91,9 @@ SurfacePoint surface_at(const Disc& s, Vec3d p);
 SurfacePoint surface_at(const Box& s, Vec3d p);
 SurfacePoint surface_at(const Mesh& s, std::uint32_t triangle, double u, double v);
 
+/// `q` as multiples of the edges of a quad, of its part in the quad's plane.
+std::array<double, 2> along_edges(const Quad& s, Vec3d q);
+
 /// Area, m^2.
 double area(const Shape& s);
 double triangle_area(const Mesh& m, std::uint32_t triangle);
@@ -100,8 +103,10 @@ SurfacePoint sample_surface(const Shape& s, double u, double v);
 
 /// The same without what only scripts ask for: on spheres, quads and discs uv and tangents are 0.
 SurfacePoint sample_place(const Shape& s, double u, double v);
-/// Likewise, the point of a sphere next to `p`.
+/// Likewise, the point next to `p`.
 SurfacePoint place_at(const Sphere& s, Vec3d p);
+SurfacePoint place_at(const Quad& s, Vec3d p);
+SurfacePoint place_at(const Disc& s, Vec3d p);
 /// Adds what they leave out.
 SurfacePoint complete(const Shape& s, const SurfacePoint& place);
 
