@@ -337,6 +337,10 @@ std::uint64_t hash_of(const SceneData& data, const SceneSource& source, std::str
 Result<SceneData> parse_scene(const vm::Program& program, const SceneSource& source,
                               std::string_view text, const std::string& origin,
                               const std::string& folder) {
+  if (text.find_first_not_of(" \t\r\n") == text.npos)
+    return Error{origin, "the file is empty",
+                 R"(a first scene: {"environment": {"constant": 1}, )"
+                 R"("objects": [{"sphere": {"radius": 1}, "test": true}]})"};
   Json json;
   try {
     json = Json::parse(text, nullptr, true, /*ignore_comments=*/true);

@@ -271,7 +271,8 @@ TEST_CASE("scenes that hold nothing, too much, or what is no number") {
     std::string scene;
     const char *where, *what;
   } cases[] = {
-      {"", "scene.json", "unexpected end of input"},
+      {"", "scene.json", "the file is empty"},
+      {" \n", "scene.json", "the file is empty"},
       {"null", "scene.json", "expected an object"},
       {R"({"objects": []})", "scene.json: objects", "no object"},
       {deep, "scene.json", "unexpected end of input"},
@@ -286,6 +287,12 @@ TEST_CASE("scenes that hold nothing, too much, or what is no number") {
     CHECK(run.err.size() < 400);
   }
   CHECK(folder.file_count() == 2);
+  // What the message of an empty scene tells to write is a scene.
+  folder.write("scene.json", "");
+  const std::string scene = "--scene scene.json" + std::string(kSmall);
+  const std::string said = folder.mms("render good.mms -o out.png " + scene).err;
+  folder.write("scene.json", said.substr(said.find("a first scene: ") + 15));
+  CHECK(folder.mms("render good.mms -o out.png " + scene).exit == 0);
 }
 
 TEST_CASE("folders in place of a scene and of what it names") {
