@@ -86,10 +86,13 @@ lang::Diagnostic with_help(lang::Diagnostic d) {
   return d;
 }
 
-/// What a message is about: of one place each is said once, whatever numbers it has.
+/// What a message is about: of one place each is said once, whatever numbers it has. One without a
+/// place says in its notes what it is about.
 std::string subject(const lang::Diagnostic& d) {
-  const std::string place =
+  std::string place =
       d.span ? fmt::format("{}:{}:{}", d.span.source->name, d.span.begin, d.span.end) : d.text;
+  if (!d.span)
+    for (const lang::Note& note : d.notes) place += " " + note.text;
   return fmt::format("{} {}", lang::info(d.id).code, place);
 }
 

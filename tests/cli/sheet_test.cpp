@@ -123,6 +123,24 @@ TEST_CASE("what there is to say of a script is said once, however many pictures 
   CHECK(times({0, "", json.out}, "W0404") == 1);
 }
 
+TEST_CASE("each compiled program that lacks an image is told, once on each sheet") {
+  const Folder folder;
+  folder.write("p.pgm", "P2 1 1 255 128\n");
+  folder.write("s.mms", "surface \"s\" bsdf = matte(image(\"p.pgm\", $uv)); end\n");
+  for (const char* program : {"a.mmsc", "b.mmsc"})
+    REQUIRE(folder.mms("compile s.mms -o " + std::string(program)).exit == 0);
+  REQUIRE(folder.bash("rm p.pgm").exit == 0);
+  const Outcome run = folder.mms(
+      "render a.mmsc b.mmsc a.mmsc --missing=magenta --size 8x8 --samples 1 -o sheet.png");
+  INFO(run.err);
+  CHECK(run.exit == 0);
+  for (const std::string program : {"`a.mmsc`", "`b.mmsc`"}) {
+    const std::size_t first = run.err.find(program);
+    CHECK(first != run.err.npos);
+    CHECK(run.err.find(program, first + 1) == run.err.npos);
+  }
+}
+
 TEST_CASE("a sheet that is stopped says how much of it is there, and none goes on from before") {
   const Folder folder;
   folder.write("s.mms", "param real shade = 0.3;\nsurface \"s\" bsdf = matte(shade); end\n");
