@@ -32,6 +32,21 @@ bool write_all(int file, std::string_view text) {
 
 }  // namespace
 
+std::optional<Error> check_replaceable(const std::string& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored))
+    return Error{path, "the output is a folder", "name a file in it"};
+  const std::string folder = fs::path(path).parent_path().string();
+  if (!folder.empty() && !fs::is_directory(folder, ignored))
+    return Error{path, "no folder `" + folder + "`", "make it first"};
+  if (fs::exists(path, ignored) && ::access(path.c_str(), W_OK) != 0)
+    return Error{path, "the output cannot be written", "check its permissions"};
+  // What replaces a file is made beside it.
+  if (::access(folder.empty() ? "." : folder.c_str(), W_OK) != 0)
+    return Error{path, "the output cannot be written", "check the permissions of its folder"};
+  return std::nullopt;
+}
+
 std::optional<Error> replace_file(const std::string& path, std::string_view text) {
   std::error_code code;
   const fs::path target = fs::weakly_canonical(path, code);

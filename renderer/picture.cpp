@@ -2,8 +2,6 @@
 // Pictures that are written and read.
 #include "renderer/picture.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 
@@ -45,18 +43,7 @@ Result<Done> check_writable(const std::string& path) {
                  extension.empty() ? "the output has no extension"
                                    : fmt::format("unsupported image type `{}`", extension),
                  kSupported};
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored))
-    return Error{path, "the output is a folder", "name a file in it"};
-  const fs::path folder = fs::path(path).parent_path();
-  if (!folder.empty() && !fs::is_directory(folder, ignored))
-    return Error{path, fmt::format("no folder `{}`", folder.string()), "make it first"};
-  if (fs::exists(path, ignored) && ::access(path.c_str(), W_OK) != 0)
-    return Error{path, "the output cannot be written", "check its permissions"};
-  // What replaces a file is made beside it.
-  const std::string beside = folder.empty() ? "." : folder.string();
-  if (::access(beside.c_str(), W_OK) != 0)
-    return Error{path, "the output cannot be written", "check the permissions of its folder"};
+  if (const auto error = check_replaceable(path)) return *error;
   if (extension == ".exr")
     if (const auto io = open_image_io(path); !io) return io.error();
   return Done{};
@@ -81,7 +68,7 @@ Result<Done> write_picture(const std::string& path, const Picture& picture, cons
 Result<ReadPicture> read_picture(const std::string& path, const std::string& layer) {
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored))
-    return Error{path, "there is no such picture", "is it there?"};
+    return Error{path, "there is no such picture", "check the spelling and the folder you are in"};
   if (extension_of(path) == kFilmExtension)
     return Error{path, "is a film, exact sums, not a picture",
                  "make a picture of it: mms merge A.film -o A.exr"};

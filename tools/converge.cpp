@@ -2,8 +2,12 @@
 // mms converge: its options.
 #include "tools/converge.h"
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <sstream>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -36,12 +40,37 @@ std::optional<Error> read_numbers(ConvergeRequest& r) {
   return {};
 }
 
+/// Switches of renders that make more or less than one picture.
+constexpr std::string_view kNotOne[] = {"sweep", "turntable", "watch"};
+
+std::optional<Error> check_switches(const char* option, const std::vector<std::string>& sets) {
+  for (const std::string& text : sets) {
+    std::istringstream in(text);
+    for (std::string word; in >> word;) {
+      word = word.substr(std::min(word.find_first_not_of('-'), word.size()));
+      const std::string name = word.substr(0, word.find('='));
+      if (std::ranges::find(kNotOne, name) != std::end(kNotOne))
+        return Error{option, fmt::format("`{}` does not make one picture", name), "leave it out"};
+    }
+  }
+  return std::nullopt;
+}
+
 Exit converge(ConvergeRequest request) {
   if (const auto error = read_numbers(request)) return fail(Exit::Usage, *error, request);
+  if (const auto error = check_switches("--vary", request.vary))
+    return fail(Exit::Usage, *error, request);
+  if (const auto error = check_switches("--with", request.with))
+    return fail(Exit::Usage, *error, request);
   if (!request.output.ends_with(".csv"))
     return fail(Exit::Usage,
                 {"-o", fmt::format("`{}` is no .csv file", request.output),
                  "name one; the plot goes beside it, as .svg"},
+                request);
+  if (request.files.size() > 1)
+    return fail(Exit::Usage,
+                {"mms converge", fmt::format("one script, but {} are given", request.files.size()),
+                 "measure one at a time"},
                 request);
   return measure_convergence(request);
 }
@@ -58,7 +87,8 @@ Verb converge_verb() {
       "Renders a reference with many samples and another seed, then the same picture with more "
       "and more,\nand writes a table (.csv) and a plot (.svg) of the difference. --vary is "
       "given once for each curve.\nA curve whose switches change the picture itself, as filter, "
-      "max-depth, set or scene do, has a\nreference of its own, with the same.\n\nExamples:\n"
+      "max-depth, set or scene do, has a\nreference of its own, with the same. Ctrl-C leaves a "
+      "table of what was rendered.\n\nExamples:\n"
       "  mms converge marble.mms -o marble.csv\n"
       "  mms converge glass.mms --samples 4:256 --with size=128x128 --with scene=cornell\n"
       "  mms converge marble.mms --vary sampler=niederreiter --vary sampler=random\n"

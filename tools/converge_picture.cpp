@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iostream>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -23,8 +25,11 @@
 
 #include "base/file.h"
 #include "renderer/compare.h"
+#include "tools/child.h"
 #include "tools/output.h"
+#include "tools/overwrite.h"
 #include "tools/plot.h"
+#include "tools/render_job.h"
 
 namespace mms::tools {
 
@@ -97,56 +102,101 @@ void show_messages(const ConvergeRequest& request, const std::string& command,
   }
 }
 
-/// Renders with the switches `more`, and with `seed` instead of that of `--with`; empty after
-/// saying what is wrong.
-std::optional<Run> render(const ConvergeRequest& request, const std::string& path, int samples,
-                          const std::string& more, Exit& exit, const std::string& seed = "") {
+/// What is to be measured, and what is needed on the way.
+struct Measurement {
+  const ConvergeRequest& request;
+  fs::path scratch;
+  std::string input;  ///< a file with what was read from standard input; empty: none
+};
+
+using Names = std::span<const std::string_view>;
+
+/// `mms render` with the switches of `--with` and `more`, but for what is left out of each.
+std::string render_command(const Measurement& m, const std::string& more, Names left_out_of_with,
+                           Names left_out_of_more) {
   std::error_code ignored;
   std::string command = quoted(fs::read_symlink("/proc/self/exe", ignored).string()) + " render";
-  for (const std::string& file : request.files) command += " " + quoted(file);
-  command += fmt::format(" --samples {} --checkpoint 0 -o {}", samples, quoted(path));
-  constexpr std::string_view kSeed[] = {"--seed"};
-  for (const std::string& text : request.with)
-    command += seed.empty() ? switches(text) : switches(text, kSeed);
-  command += more;
-  if (!seed.empty()) command += " --seed " + seed;
+  for (const std::string& file : m.request.files) command += " " + quoted(file);
+  command += " --checkpoint 0";
+  for (const std::string& text : m.request.with) command += switches(text, left_out_of_with);
+  command += switches(more, left_out_of_more);
+  if (!m.input.empty()) command += " <" + quoted(m.input);
+  return command;
+}
+
+/// Runs `mms render`; its report, or empty after saying what is wrong. `more`: the switches to
+/// blame.
+std::optional<nlohmann::json> report_of(const Measurement& m, const std::string& command,
+                                        const std::string& more, Exit& exit) {
   const auto give_up = [&](Exit code, const Error& error) {
-    exit = fail(code, error, request);
+    exit = fail(code, error, m.request);
     return std::nullopt;
   };
-  std::FILE* pipe = popen((command + " --format=json").c_str(), "r");
-  if (!pipe) return give_up(Exit::File, {"mms render", "cannot be started", ""});
-  std::string out;
-  char buffer[4096];
-  while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, pipe)) out.append(buffer, n);
-  const int status = pclose(pipe);
-  if (status != 0) {
-    show_messages(request, command, out);
-    const Exit code = WIFEXITED(status) ? Exit(WEXITSTATUS(status)) : Exit::Internal;
-    return give_up(code, {"mms render", "failed" + (more.empty() ? "" : " with" + more),
+  auto ended = run_child(command + " --format=json");
+  if (interrupted()) {
+    exit = Exit::Interrupted;
+    return std::nullopt;
+  }
+  if (!ended) return give_up(Exit::File, {"mms render", "cannot be started", ""});
+  if (ended->status != 0) {
+    show_messages(m.request, command, ended->out);
+    const Exit code = WIFEXITED(ended->status) ? Exit(WEXITSTATUS(ended->status)) : Exit::Internal;
+    return give_up(code, {"mms render", "failed" + (more.empty() ? "" : " with" + switches(more)),
                           "its own message says why"});
   }
   // The last line; warnings of the script stand before it.
+  std::string& out = ended->out;
   out.erase(0, out.rfind('\n', out.size() - 2) + 1);
-  const auto json = nlohmann::json::parse(out);
+  return nlohmann::json::parse(out);
+}
+
+/// Renders by `command`; empty after saying what is wrong.
+std::optional<Run> render(const Measurement& m, const std::string& command, int samples,
+                          const std::string& more, Exit& exit) {
+  const std::string path = (m.scratch / "picture.exr").string();
+  const auto json = report_of(
+      m, fmt::format("{} --samples {} -o {}", command, samples, quoted(path)), more, exit);
+  if (!json) return std::nullopt;
   auto picture = renderer::read_picture(path);
-  if (!picture) return give_up(Exit::File, picture.error());
-  Run run{json["seconds"].get<double>(), {}, std::move(*picture)};
-  if (json.contains("error")) run.estimate = json["error"].get<double>();
+  if (!picture) {
+    exit = fail(Exit::File, picture.error(), m.request);
+    return std::nullopt;
+  }
+  Run run{(*json)["seconds"].get<double>(), {}, std::move(*picture)};
+  if (json->contains("error")) run.estimate = (*json)["error"].get<double>();
   return run;
+}
+
+/// Tries a curve with one pixel: what is wrong with its switches is told before hours are spent on
+/// others, and so is what would be written over.
+Exit try_curve(const Measurement& m, const std::string& more, const std::string& svg) {
+  constexpr std::string_view kSize[] = {"--size"};
+  const std::string command = render_command(m, more, kSize, kSize) +
+                              " --samples 1 --size 1x1 -o " +
+                              quoted((m.scratch / "picture.exr").string());
+  Exit exit = Exit::Ok;
+  const auto json = report_of(m, command, more, exit);
+  if (!json) return exit;
+  const auto inputs = (*json)["files"].get<std::vector<std::string>>();
+  for (const std::string& output : {m.request.output, svg})
+    if (const auto error = overwrites(output, inputs)) return fail(Exit::Usage, *error, m.request);
+  return Exit::Ok;
 }
 
 /// References, by what of their switches changes the mean.
 class References {
  public:
-  explicit References(const ConvergeRequest& request) : request_(request) {}
+  explicit References(const Measurement& m) : measurement_(m) {}
 
   /// The truth of a curve; null after saying what is wrong.
-  const Run* of(const std::string& curve, const fs::path& folder, Exit& exit) {
+  const Run* of(const std::string& curve, Exit& exit) {
     const std::string key = switches(curve, kSameMean);
     if (const auto known = runs_.find(key); known != runs_.end()) return &known->second;
-    auto run = render(request_, (folder / "reference.exr").string(), request_.reference_samples,
-                      key, exit, kReferenceSeed);
+    constexpr std::string_view kSeed[] = {"--seed"};
+    const Measurement& m = measurement_;
+    const std::string command =
+        render_command(m, curve, kSeed, kSameMean) + " --seed " + kReferenceSeed;
+    auto run = render(m, command, m.request.reference_samples, curve, exit);
     return run ? &runs_.emplace(key, std::move(*run)).first->second : nullptr;
   }
 
@@ -158,9 +208,12 @@ class References {
   }
 
  private:
-  const ConvergeRequest& request_;
+  const Measurement& measurement_;
   std::map<std::string, Run> runs_;
 };
+
+/// Name of the curve without switches.
+constexpr const char* kDefault = "default";
 
 /// One point of one curve.
 struct Row {
@@ -184,12 +237,20 @@ double slope(const std::vector<Row>& rows, const std::string& name) {
   return spread > 0 ? (n * xy - x * y) / spread : 0;
 }
 
+/// A cell of a table as RFC 4180 has it: switches may hold commas.
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == text.npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
 std::string table(const std::vector<Row>& rows) {
   std::string csv = "switches,samples,seconds,estimated_error";
   for (const renderer::MeasureInfo& m : renderer::measures()) csv += fmt::format(",{}", m.name);
   csv += "\n";
   for (const Row& r : rows) {
-    csv += fmt::format("{},{},{:.6g},", r.name, r.samples, r.seconds);
+    csv += fmt::format("{},{},{:.6g},", cell(r.name), r.samples, r.seconds);
     if (r.estimate) csv += fmt::format("{:.6g}", *r.estimate);
     for (const renderer::MeasureInfo& m : renderer::measures())
       csv += fmt::format(",{:.6g}", r.error[m.measure]);
@@ -231,9 +292,32 @@ void print(const ConvergeRequest& request, const Row& r) {
   std::fflush(stdout);
 }
 
+/// A row for each number of samples of a curve.
+Exit measure_curve(const Measurement& m, const std::string& curve, References& references,
+                   std::vector<Row>& rows) {
+  Exit exit = Exit::Ok;
+  const Run* reference = references.of(curve, exit);
+  if (!reference) return exit;
+  const std::string command = render_command(m, curve, {}, {});
+  for (int samples = m.request.first; samples <= m.request.last; samples *= 2) {
+    const auto run = render(m, command, samples, curve, exit);
+    if (!run) return exit;
+    const auto error = renderer::compare(run->picture, reference->picture, {});
+    if (!error) return fail(Exit::Usage, error.error(), m.request);
+    rows.push_back(
+        {curve.empty() ? kDefault : curve, samples, run->seconds, run->estimate, *error});
+    print(m.request, rows.back());
+  }
+  return exit;
+}
+
 }  // namespace
 
 Exit measure_convergence(const ConvergeRequest& request) {
+  const std::string svg = fs::path(request.output).replace_extension(".svg").string();
+  for (const std::string& output : {request.output, svg})
+    if (const auto error = check_replaceable(output)) return fail(Exit::File, *error, request);
+  catch_interrupts();
   const Scratch scratch;
   if (scratch.path.empty())
     return fail(
@@ -242,34 +326,37 @@ Exit measure_convergence(const ConvergeRequest& request) {
          "its pictures stay a while in the folder that $TMPDIR names, else in /tmp: name one "
          "that can be written"},
         request);
-  References references(request);
+  Measurement m{request, scratch.path, {}};
+  if (request.files[0] == "-") {
+    m.input = (scratch.path / "stdin").string();
+    std::ofstream(m.input, std::ios::binary) << std::cin.rdbuf();
+  }
   std::vector<std::string> names = request.vary;
   if (names.empty()) names.push_back("");
   std::vector<Row> rows;
+  References references(m);
   Exit exit = Exit::Ok;
-  for (std::string& name : names) {
-    const std::string more = switches(name);
-    const Run* reference = references.of(name, scratch.path, exit);
-    if (!reference) return exit;
-    if (name.empty()) name = "default";
-    for (int samples = request.first; samples <= request.last; samples *= 2) {
-      const auto run = render(request, (scratch.path / "run.exr").string(), samples, more, exit);
-      if (!run) return exit;
-      const auto error = renderer::compare(run->picture, reference->picture, {});
-      if (!error) return fail(Exit::Usage, error.error(), request);
-      rows.push_back({name, samples, run->seconds, run->estimate, *error});
-      print(request, rows.back());
-    }
+  for (const std::string& name : names)
+    if (exit == Exit::Ok) exit = try_curve(m, name, svg);
+  for (const std::string& name : names)
+    if (exit == Exit::Ok) exit = measure_curve(m, name, references, rows);
+  if (exit != Exit::Ok && exit != Exit::Interrupted) return exit;
+  if (rows.empty()) {
+    fmt::print(stderr, "stopped: {} is not written, no render was finished\n", request.output);
+    return exit;
   }
-  const std::string svg = fs::path(request.output).replace_extension(".svg").string();
+  for (std::string& name : names)
+    if (name.empty()) name = kDefault;
   if (const auto error = replace_file(request.output, table(rows)))
     return fail(Exit::File, *error, request);
   if (const auto error = replace_file(svg, plot(request, names, rows)))
     return fail(Exit::File, *error, request);
-  if (!request.quiet && !request.json())
+  if (exit == Exit::Interrupted)
+    fmt::print(stderr, "stopped: {} has what was there, {} renders\n", request.output, rows.size());
+  else if (!request.quiet && !request.json())
     fmt::print("{}, {}: {} renders; the truth is known to {:.2g}\n", request.output, svg,
                rows.size(), references.known_to());
-  return Exit::Ok;
+  return exit;
 }
 
 }  // namespace mms::tools

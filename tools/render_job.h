@@ -56,7 +56,7 @@ bool interrupted();
 std::string stem(const std::string& file);
 
 /// One line, or the counters, or JSON; and warnings.
-void print_report(const RenderRequest& request, const std::string& script, const std::string& path,
-                  const renderer::Report& r);
+void print_report(const RenderRequest& request, const RenderScript& linked,
+                  const std::string& script, const std::string& path, const renderer::Report& r);
 
 }  // namespace mms::tools

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -188,11 +189,21 @@ std::vector<std::string> files_of_scene(const std::string& scene) {
   return files;
 }
 
-std::vector<std::string> inputs_of(const RenderRequest& request, const RenderScript& script) {
+namespace {
+
+/// What a picture of `script` is made from besides it, as far as it is named.
+std::vector<std::string> named_files(const RenderRequest& request, const RenderScript& script) {
   std::vector<std::string> all = files_of_scene(request.scene);
-  all.insert(all.end(), request.files.begin(), request.files.end());
   all.insert(all.end(), script.linked->dependencies.begin(), script.linked->dependencies.end());
   all.push_back(request.environment);
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::string> inputs_of(const RenderRequest& request, const RenderScript& script) {
+  std::vector<std::string> all = named_files(request, script);
+  all.insert(all.end(), request.files.begin(), request.files.end());
   return all;
 }
 
@@ -230,9 +241,13 @@ renderer::RenderOptions render_options(const RenderRequest& request) {
   return options;
 }
 
-void print_report(const RenderRequest& request, const std::string& script, const std::string& path,
-                  const renderer::Report& r) {
-  const Json json = to_json(script, path, r);
+void print_report(const RenderRequest& request, const RenderScript& linked,
+                  const std::string& script, const std::string& path, const renderer::Report& r) {
+  Json json = to_json(script, path, r);
+  std::set<std::string> files{script};
+  for (const std::string& name : named_files(request, linked))
+    if (std::error_code ignored; fs::is_regular_file(name, ignored)) files.insert(name);
+  json["files"] = files;
   if (request.json()) {
     fmt::print("{}\n", json.dump());
   } else if (!request.quiet) {

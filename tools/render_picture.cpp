@@ -171,7 +171,7 @@ Exit render_one(const RenderRequest& request, const RenderScript& script, const 
   if (!rendered) return fail(Exit::Budget, rendered.error(), request);
   const auto written = write_result(request, path, checkpoint, key, *rendered);
   if (!written) return fail(Exit::File, written.error(), request);
-  print_report(request, file, path, rendered->report);
+  print_report(request, script, file, path, rendered->report);
   return verdict(request, path, rendered->report);
 }
 

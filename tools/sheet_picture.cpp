@@ -115,7 +115,7 @@ Exit render_tile(const Variant& v, const std::string& path, renderer::SheetTile&
   auto pixels = renderer::display_pixels(r->film, view_of(v.request));
   if (!pixels) return fail(Exit::File, pixels.error(), v.request);
   tile.pixels = std::move(*pixels);
-  print_report(v.request, v.file, v.caption, r->report);
+  print_report(v.request, *job, v.file, v.caption, r->report);
   return r->report.too_many_faults ? Exit::Budget : r->report.stopped ? Exit::Interrupted : exit;
 }
 

@@ -127,7 +127,7 @@ class Version {
     if (r->report.stopped && !interrupted()) return;  // another version is there
     const renderer::FilmKey key = renderer::film_key(job_.scene, options_, job_.hash);
     write({r->film, r->layers.get(), metadata(path_, key, *r->sums)});
-    print_report(request_, file_, path_, r->report);
+    print_report(request_, job_, file_, path_, r->report);
   }
 
  private:

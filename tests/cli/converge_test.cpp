@@ -67,6 +67,9 @@ TEST_CASE("converge says what it cannot do") {
   } cases[] = {{"--samples 8:4", "--samples"},
                {"--samples x", "--samples"},
                {"--reference 0", "--reference"},
+               {"s.mms", "2 are given"},
+               {"--with 'size=8x8 watch'", "`watch`"},
+               {"--vary turntable=3", "`turntable`"},
                {"-o c.txt", ".csv"}};
   for (const auto& c : cases) {
     CAPTURE(c.args);
@@ -91,6 +94,76 @@ TEST_CASE("converge says what it cannot do") {
   CHECK(nowhere.exit == 3);
   CHECK(contains(nowhere.err, "no folder for temporary files"));
   CHECK(contains(nowhere.err, "TMPDIR"));
+}
+
+TEST_CASE("converge tells what will not do before it has rendered anything") {
+  const Folder folder;
+  folder.write("s.mms", "surface \"s\" bsdf = matte(0.5); end\n");
+  const std::string small = "converge s.mms --samples 1:1 --with size=8x8 ";
+  const Outcome late = folder.mms(small + "--vary filter=box --vary filter=bx");
+  CHECK(late.exit == 2);
+  CHECK(late.out == "");
+  const Outcome nowhere = folder.mms(small + "-o no/such.csv");
+  CHECK(nowhere.exit == 3);
+  CHECK(nowhere.out == "");
+  CHECK(contains(nowhere.err, "no folder `no`"));
+}
+
+TEST_CASE("converge writes nothing over what its pictures are made from") {
+  const Folder folder;
+  const std::string lamp = "400 1\n700 2\n";
+  folder.write("lamp.csv", lamp);
+  folder.write("s.mms", "surface \"s\" emission = measured(\"lamp.csv\", $wavelength); end\n");
+  folder.write("plain.mms", "surface \"s\" bsdf = matte(0.5); end\n");
+  const std::string small = " --samples 1:1 --with size=8x8 -o ";
+  for (const std::string& args : {"s.mms" + small + "lamp.csv", "s.mms" + small + "./lamp.csv"}) {
+    CAPTURE(args);
+    const Outcome run = folder.mms("converge " + args);
+    CHECK(run.exit == 2);
+    CHECK(contains(run.err, "lamp.csv: would be written over what it is made from"));
+    CHECK(run.out == "");
+  }
+  // The plot too, and of any curve.
+  REQUIRE(folder.bash("ln -s scene.json plot.svg").exit == 0);
+  folder.write("scene.json", R"({"objects": [{"sphere": {}, "test": true}]})");
+  const Outcome plot = folder.mms("converge plain.mms" + small +
+                                  "plot.csv --vary scene=furnace --vary scene=scene.json");
+  CHECK(plot.exit == 2);
+  CHECK(contains(plot.err, "plot.svg: would be written over"));
+  CHECK(folder.read("lamp.csv") == lamp);
+  CHECK_FALSE(folder.has("plot.csv"));
+}
+
+TEST_CASE("converge reads its script from standard input, and quotes what holds commas") {
+  const Folder folder;
+  const Outcome run = folder.mms(
+      "converge - --samples 1:2 --with size=8x8 --vary 'set=c=rgb(0.1,0.2,0.3)' -o c.csv",
+      "param spectrum c = 0.5;\nsurface \"s\" bsdf = matte(c); end\n");
+  INFO(run.err);
+  CHECK(run.exit == 0);
+  CHECK(contains(folder.read("c.csv"), "\n\"set=c=rgb(0.1,0.2,0.3)\",2,"));
+}
+
+TEST_CASE("Ctrl-C ends a measurement with a table of what is there, and leaves nothing running") {
+  const Folder folder;
+  folder.write("s.mms", "surface \"s\" bsdf = matte(0.5); end\n");
+  // The signal goes to the command alone, while it waits for a render that takes hours.
+  const Outcome run = folder.bash(R"BASH(
+mkdir tmp; touch log
+TMPDIR=$PWD/tmp mms-render converge s.mms --samples 1:1048576 --reference 1 --with size=32x32 -o c.csv \
+  >log 2>err & child=$!
+for i in $(seq 3000); do
+  grep -q ' 8 samples' log && break; sleep 0.01
+done
+kill -INT $child; wait $child; echo "ended $?"; cat err; ls tmp
+)BASH");
+  INFO(run.out, run.err);
+  CHECK(contains(run.out, "ended 130\nstopped: c.csv has what was there, "));
+  CHECK(run.out.ends_with(" renders\n"));
+  const auto rows = rows_of(folder.read("c.csv"));
+  REQUIRE(rows.size() > 4);
+  CHECK(rows[4][1] == "8");
+  CHECK(folder.has("c.svg"));
 }
 
 #endif
