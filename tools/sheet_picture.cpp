@@ -59,6 +59,12 @@ struct Variant {
   RenderRequest request;
 };
 
+/// The same with the `i`-th value of the sweep.
+RenderRequest with_value(RenderRequest request, const Sweep& sweep, int i) {
+  request.settings.push_back(sweep.param + "=" + sweep.value(i));
+  return request;
+}
+
 std::vector<Variant> variants(const RenderRequest& request, const std::optional<Sweep>& sweep) {
   std::vector<Variant> all;
   for (const std::string& file : request.files) {
@@ -67,16 +73,17 @@ std::vector<Variant> variants(const RenderRequest& request, const std::optional<
       continue;
     }
     for (int i = 0; i < sweep->steps; ++i) {
-      Variant v{file, fmt::format("{} = {}", sweep->param, sweep->value(i)), request};
+      Variant v{file, fmt::format("{} = {}", sweep->param, sweep->value(i)),
+                with_value(request, *sweep, i)};
       if (request.files.size() > 1) v.caption = stem(file) + ": " + v.caption;
-      v.request.settings.push_back(sweep->param + "=" + sweep->value(i));
       all.push_back(std::move(v));
     }
   }
   return all;
 }
 
-/// Whether the script `file` has the param that is swept; says once what is wrong for every tile.
+/// Whether the script `file` has the param that is swept, and each value fits it; says once what is
+/// wrong, before any tile is rendered.
 Exit check_sweep(const RenderRequest& request, const Sweep& sweep, const std::string& file) {
   if (file == "-")
     return fail(Exit::Usage, {"--sweep", "standard input can be read only once", "name a file"},
@@ -85,21 +92,29 @@ Exit check_sweep(const RenderRequest& request, const Sweep& sweep, const std::st
   const auto sources = read_sources({file}, request, exit);
   if (!sources) return exit;
   lang::Diagnostics diagnostics;
-  const auto linked = compile(*sources, request, diagnostics, exit);
-  if (!linked || diagnostics.has_errors()) {
+  const auto links = [&](const RenderRequest& r) {
+    auto linked = compile(*sources, r, diagnostics, exit);
+    if (linked && !diagnostics.has_errors()) return linked;
+    if (linked) exit = Exit::Script;
     print(diagnostics, request);
-    return linked ? Exit::Script : exit;
-  }
+    return std::optional<Compiled>();
+  };
+  const auto linked = links(request);
+  if (!linked) return exit;
   std::vector<std::string> names;
   for (const lang::ParamInfo& p : linked->params) names.push_back(p.name);
-  if (std::ranges::find(names, sweep.param) != names.end()) return Exit::Ok;
-  const std::string near = lang::nearest(sweep.param, names);
-  return fail(Exit::Usage,
-              {"--sweep", fmt::format("{} has no param `{}`", file, sweep.param),
-               !near.empty()    ? fmt::format("did you mean `{}`?", near)
-               : !names.empty() ? fmt::format("there are: {}", fmt::join(names, ", "))
-                                : "add one to the script: param real roughness = 0.3;"},
-              request);
+  if (std::ranges::find(names, sweep.param) == names.end()) {
+    const std::string near = lang::nearest(sweep.param, names);
+    return fail(Exit::Usage,
+                {"--sweep", fmt::format("{} has no param `{}`", file, sweep.param),
+                 !near.empty()    ? fmt::format("did you mean `{}`?", near)
+                 : !names.empty() ? fmt::format("there are: {}", fmt::join(names, ", "))
+                                  : "add one to the script: param real roughness = 0.3;"},
+                request);
+  }
+  for (int i = 0; i < sweep.steps; ++i)
+    if (!links(with_value(request, sweep, i))) return exit;
+  return Exit::Ok;
 }
 
 /// Renders one tile of the sheet at `path`; its pixels are left empty where that fails.

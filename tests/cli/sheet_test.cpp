@@ -81,6 +81,20 @@ TEST_CASE("a sweep shows a param at its values, in a row") {
   CHECK(none.exit == 2);
   CHECK(none.err ==
         "error: --sweep: a.mms has no param `shape`\n  = help: did you mean `shade`?\n");
+  // A value that does not fit is told before any picture of the others is made.
+  folder.write("b.mms",
+               "param integer steps = 3 in [0, 9];\n"
+               "surface \"b\" bsdf = matte(0.1 * steps); end\n");
+  for (const auto& [sweep, what] : {std::pair("steps=0:2:4", "expected `integer`, found `real`"),
+                                    std::pair("steps=8:10:3", "`steps` is 10, outside")}) {
+    CAPTURE(sweep);
+    const Outcome wrong =
+        folder.mms("render b.mms -o b.png --sweep " + std::string(sweep) + options);
+    CHECK(wrong.exit == 2);
+    CHECK(wrong.out == "");
+    CHECK(contains(wrong.err, what));
+    CHECK_FALSE(folder.has("b.png"));
+  }
   CHECK(folder.mms("render - --sweep shade=0:1:2 -o n.png" + options).exit == 2);
   CHECK(folder.mms("render a.mms --sweep shade=0:1:2 --watch" + options).exit == 2);
 }
