@@ -16,6 +16,7 @@
 #include "tools/commands.h"
 #include "tools/evaluate.h"
 #include "tools/furnace_report.h"
+#include "tools/overwrite.h"
 
 namespace mms::tools {
 
@@ -51,6 +52,13 @@ Exit furnace(const FurnaceOptions& options) {
   compiling.format = "text";  // standard output is for the one object
   const auto compiled = compile_files(options.files, compiling, exit);
   if (!compiled) return exit;
+  std::vector<std::string> inputs = options.files;
+  inputs.insert(inputs.end(), compiled->dependencies.begin(), compiled->dependencies.end());
+  for (const std::string& output : {options.plot, options.page}) {
+    if (output.empty()) continue;
+    if (const auto error = check_replaceable(output)) return fail(Exit::File, *error, options);
+    if (const auto error = overwrites(output, inputs)) return fail(Exit::Usage, *error, options);
+  }
   auto in = point<double>(*compiled, options, exit);
   if (!in) return exit;
   std::vector<double> nanometres;

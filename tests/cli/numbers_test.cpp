@@ -134,3 +134,26 @@ TEST_CASE("furnace refuses what has no surface, and no number of samples") {
   CHECK(wrong.exit == 2);
   CHECK(contains(wrong.err, "--samples"));
 }
+
+TEST_CASE(
+    "furnace says what it cannot write before it measures, and writes nothing over its script") {
+  const Folder folder;
+  const std::string script =
+      "surface \"s\" bsdf = matte(measured(\"lamp.csv\", $wavelength)); end\n";
+  const std::string lamp = "400 0.1\n700 0.2\n";
+  folder.write("s.mms", script);
+  folder.write("lamp.csv", lamp);
+  for (const std::string option : {"--plot ", "--page "})
+    for (const std::string output : {"s.mms", "lamp.csv"}) {
+      CAPTURE(option + output);
+      const Outcome over = folder.mms("furnace s.mms --samples 10 " + option + output);
+      CHECK(over.exit == 2);
+      CHECK(contains(over.err, output + ": would be written over"));
+    }
+  const Outcome nowhere = folder.mms("furnace s.mms --samples 10 --plot no/such.svg");
+  CHECK(nowhere.exit == 3);
+  CHECK(contains(nowhere.err, "no folder `no`"));
+  CHECK(nowhere.out == "");
+  CHECK(folder.read("s.mms") == script);
+  CHECK(folder.read("lamp.csv") == lamp);
+}
