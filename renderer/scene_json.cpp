@@ -137,6 +137,8 @@ class Parser {
     if (n.has("rotate")) o.transform.axes = euler(n["rotate"].vec3());
     o.transform.scale = n.number_or("scale", 1, 1e-9, 1e9);
     o.test = n.has("test") && (n["test"].is_number() || n["test"].logic());
+    if (o.test && n["test"].is_number() && n["test"].number() != std::floor(n["test"].number()))
+      n["test"].fail("the number of a place is whole");
     if (o.test) turn(o.transform);
     if (n.has("instance")) {
       const Named& first = original(n);
@@ -191,10 +193,16 @@ class Parser {
   const Named& original(const Node& n) const {
     const std::string name = n["instance"].text();
     std::vector<std::string> known;
+    const Named* found = nullptr;
     for (const Named& other : named_) {
-      if (other.name == name) return other;
+      if (found && other.name == name)
+        n["instance"].fail(fmt::format("objects[{}] and objects[{}] are both called `{}`",
+                                       found->object, other.object, name),
+                           "give one of them another name");
+      if (other.name == name) found = &other;
       known.push_back(other.name);
     }
+    if (found) return *found;
     n["instance"].fail(fmt::format("no object `{}` before this one", name), hint_for(name, known));
   }
 
@@ -203,6 +211,8 @@ class Parser {
   void bind(const Node& n, Object& o) {
     std::string surface = n.has("surface") ? n["surface"].text() : "";
     std::string volume = n.has("volume") ? n["volume"].text() : "";
+    // Named by who knows nothing of the scene's materials, one of which may have that name too.
+    const bool of_script = o.test && (!source_.surface.empty() || surface.empty());
     if (o.test) {
       if (!source_.surface.empty()) surface = source_.surface;
       if (!source_.volume.empty()) volume = source_.volume;
@@ -217,7 +227,7 @@ class Parser {
     if (surface.empty() && volume.empty())
       n.fail("the object has no `surface`",
              "name a material of the scene or a surface of the script");
-    o.surface = surface.empty() ? invisible_surface() : surface_index(n, surface, asked);
+    o.surface = surface.empty() ? invisible_surface() : surface_index(n, surface, of_script, asked);
     if (volume.empty()) return;
     const bool asked_volume = o.test && !source_.volume.empty();
     const vm::Descriptor* d = program_.find(DescriptorForm::Volume, volume);
@@ -267,14 +277,18 @@ class Parser {
     return int(data_.surfaces.size()) - 1;
   }
 
-  int surface_index(const Node& n, const std::string& name, bool asked) {
-    const auto known = [&] {
+  /// Of the scene's material `name`, else of the script's surface; the other way where `of_script`.
+  int surface_index(const Node& n, const std::string& name, bool of_script, bool asked) {
+    const auto known = [&](bool script) {
       for (std::size_t i = 0; i < data_.surfaces.size(); ++i)
-        if (data_.surfaces[i].name == name) return int(i);
+        if (data_.surfaces[i].name == name && bool(data_.surfaces[i].script) == script)
+          return int(i);
       return -1;
     };
-    if (const int i = known(); i >= 0) return i;
     const vm::Descriptor* d = program_.find(DescriptorForm::Surface, name);
+    if (!(of_script && d))
+      if (const int i = known(false); i >= 0) return i;
+    if (const int i = known(true); i >= 0) return i;
     if (!d) {
       std::vector<std::string> candidates = names(DescriptorForm::Surface);
       for (const Surface& s : data_.surfaces)
@@ -337,20 +351,10 @@ std::uint64_t hash_of(const SceneData& data, const SceneSource& source, std::str
 Result<SceneData> parse_scene(const vm::Program& program, const SceneSource& source,
                               std::string_view text, const std::string& origin,
                               const std::string& folder) {
-  if (text.find_first_not_of(" \t\r\n") == text.npos)
-    return Error{origin, "the file is empty",
-                 R"(a first scene: {"environment": {"constant": 1}, )"
-                 R"("objects": [{"sphere": {"radius": 1}, "test": true}]})"};
-  Json json;
+  const Result<Json> json = json_of(text, origin);
+  if (!json) return json.error();
   try {
-    json = Json::parse(text, nullptr, true, /*ignore_comments=*/true);
-  } catch (const Json::exception& e) {  // what is not JSON, and numbers beyond double
-    std::string what = e.what();  // "[json.exception.parse_error.101] parse error at line 3, ..."
-    if (const std::size_t end = what.find("] "); end != std::string::npos) what.erase(0, end + 2);
-    return Error{origin, what, "scene files are JSON; comments are allowed (docs/scene.md)"};
-  }
-  try {
-    SceneData data = Parser(program, source, folder).scene(Node(json, origin, ""));
+    SceneData data = Parser(program, source, folder).scene(Node(*json, origin, ""));
     data.name = origin;
     return data;
   } catch (Mistake& m) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <initializer_list>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,10 @@ namespace mms::renderer {
 using Json = nlohmann::json;
 
 inline constexpr double kDegree = kPi<double> / 180;
+
+/// The text of a scene file as JSON. Errors: it is empty, no JSON, or an object has a key twice, of
+/// which JSON would keep the last only.
+Result<Json> json_of(std::string_view text, const std::string& origin);
 
 /// A mistake in the scene, on its way to `parse_scene`.
 struct Mistake {

@@ -212,9 +212,23 @@ std::optional<RenderJob> set_scene(const RenderRequest& request, const RenderScr
   const renderer::SceneSource source{request.scene, script.surface, request.volume, request.turn,
                                      request.environment};
   auto scene = renderer::load_scene(script.linked->program, source);
-  if (scene) return RenderJob{script, std::move(*scene)};
-  exit = fail(scene_exit(scene.error().cause), scene.error(), request);
-  return {};
+  if (!scene) {
+    exit = fail(scene_exit(scene.error().cause), scene.error(), request);
+    return {};
+  }
+  const bool tested = !scene->surface().empty() || !scene->volume().empty();
+  const char* const asked = !request.surface.empty()  ? "--surface"
+                            : !request.volume.empty() ? "--volume"
+                            : request.frames > 0      ? "--turntable"
+                                                      : nullptr;
+  if (!tested && asked) {
+    exit = fail(Exit::Usage,
+                {asked, fmt::format("is for the object under test, and {} has none", request.scene),
+                 "mark one in it: \"test\": true"},
+                request);
+    return {};
+  }
+  return RenderJob{script, std::move(*scene)};
 }
 
 std::optional<RenderJob> prepare(const RenderRequest& request, const std::string& file,

@@ -2,6 +2,7 @@
 // mms render: from scripts to pictures.
 #include <unistd.h>
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -142,6 +143,16 @@ Result<renderer::Done> write_result(const RenderRequest& request, const std::str
   return written;
 }
 
+/// Who forgot the light sees nothing, which says nothing.
+void note_if_black(const std::string& path, const renderer::Film& film) {
+  const std::array<double, 3> black{};
+  if (std::all_of(film.xyz.begin(), film.xyz.end(), [&](const auto& c) { return c == black; }))
+    fmt::print(stderr,
+               "note: {} is black: no light gets to what the camera sees; a scene has an "
+               "`environment` or an `emission`\n",
+               path);
+}
+
 Exit render_one(const RenderRequest& request, const RenderScript& script, const std::string& file,
                 const std::string& path) {
   if (const auto error = overwrites(path, inputs_of(request, script)))
@@ -172,6 +183,7 @@ Exit render_one(const RenderRequest& request, const RenderScript& script, const 
   const auto written = write_result(request, path, checkpoint, key, *rendered);
   if (!written) return fail(Exit::File, written.error(), request);
   print_report(request, script, file, path, rendered->report);
+  if (!request.quiet) note_if_black(path, rendered->film);
   return verdict(request, path, rendered->report);
 }
 

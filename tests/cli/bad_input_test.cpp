@@ -295,6 +295,22 @@ TEST_CASE("scenes that hold nothing, too much, or what is no number") {
   CHECK(folder.mms("render good.mms -o out.png " + scene).exit == 0);
 }
 
+TEST_CASE("options for the object under test, where the scene has none") {
+  const Folder folder;
+  folder.write("good.mms", kGood);
+  folder.write("scene.json", R"({"objects": [{"sphere": {}, "surface": "good"}]})");
+  const std::string render = "render good.mms --scene scene.json -o out.png" + std::string(kSmall);
+  for (const std::string option : {"--surface good", "--volume good", "--turntable 2"})
+    check_message(folder.mms(render + option), 2, option.substr(0, option.find(' ')),
+                  "scene.json has none");
+  CHECK(folder.file_count() == 2);
+  // Without them it is a scene like others; this one is dark.
+  const Outcome dark = folder.mms(render);
+  CHECK(dark.exit == 0);
+  CHECK(contains(dark.err, "note: out.png is black"));
+  CHECK(folder.mms(render + "--environment white").err == "");
+}
+
 TEST_CASE("folders in place of a scene and of what it names") {
   const Folder folder;
   folder.write("good.mms", kGood);

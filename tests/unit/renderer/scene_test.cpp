@@ -56,6 +56,9 @@ TEST_CASE("every mistake names its place and what to try") {
   CHECK(e.where == "s.json: objects[0].priority");
   CHECK(e.what == "a priority is a whole number");
 
+  e = error_of(R"({"objects": [{"sphere": {}, "test": 1.5}]})");
+  CHECK(e.where == "s.json: objects[0].test");
+
   e = error_of(R"({"objects": [{"disc": {}, "surface": "wood", "priority": 1}]})");
   CHECK(holds(e.what, "only a closed object has an inside"));
 
@@ -166,6 +169,44 @@ TEST_CASE("the test object asks which surface when there are several, and the op
   REQUIRE(bool(one));
   CHECK(one->test_surface == "marble");
   CHECK(one->test_volume == "marble");  // a volume fills the surface of its name
+}
+
+TEST_CASE("the test object wears the script's surface, whatever the scene calls its materials") {
+  HandProgram h;
+  h.matte("ground", 0.1);
+  h.matte("other", 0.2);
+  const auto is_script = [&](const SceneSource& source, const std::string& test) {
+    const Result<SceneData> r =
+        parse_scene(h.program, source,
+                    R"({"materials": {"ground": {}, "plain": {}}, "objects": [
+        {"disc": {}, "surface": "ground"}, {"sphere": {}, )" +
+                        test + "}]}",
+                    "s", "");
+    REQUIRE_MESSAGE(bool(r), (r ? "" : r.error().where + r.error().what));
+    CHECK(r->surfaces[std::size_t(r->objects[0].surface)].script == nullptr);
+    return r->surfaces[std::size_t(r->objects[1].surface)].script != nullptr;
+  };
+  CHECK(is_script({"s", "ground", ""}, R"("test": true)"));
+  CHECK(is_script({"s", "", ""}, R"("test": 0)"));
+  CHECK_FALSE(is_script({"s", "plain", ""}, R"("test": true)"));
+  // What the scene itself names is the scene's.
+  CHECK_FALSE(is_script({"s", "", ""}, R"("test": true, "surface": "ground")"));
+}
+
+TEST_CASE("a key that is there twice is a mistake, wherever it is") {
+  const struct {
+    const char *text, *where;
+  } cases[] = {
+      {R"({"objects": [], "objects": []})", "s.json: objects"},
+      {R"({"materials": {"a": {}, "b": {"matte": [0, 0, 0], "matte": 1}, "a": {}}})",
+       "s.json: materials.b.matte"},
+      {R"({"objects": [{"sphere": {"center": [1, 2, 3]}}, {"a": [[{}, {}], {"x": 1, "x": 2}]}]})",
+       "s.json: objects[1].a[1].x"}};
+  for (const auto& c : cases) {
+    const Error e = error_of(c.text);
+    CHECK(e.where == c.where);
+    CHECK(holds(e.what, "twice"));
+  }
 }
 
 TEST_CASE("comments are allowed, transforms apply, and built-in scenes load") {
@@ -329,6 +370,11 @@ TEST_CASE("an instance has the shape of a named object, and a place and surface 
                                               {"instance": "pni", "surface": "wood"}]})");
   CHECK(none.where == "s.json: objects[1].instance");
   CHECK(holds(none.hint, "did you mean `pin`?"));
+  const Error both = error_of(R"({"objects": [{"name": "pin", "sphere": {}, "surface": "wood"},
+                                              {"name": "pin", "disc": {}, "surface": "wood"},
+                                              {"instance": "pin", "surface": "wood"}]})");
+  CHECK(both.where == "s.json: objects[2].instance");
+  CHECK(both.what == "objects[0] and objects[1] are both called `pin`");
   CHECK(holds(error_of(R"({"objects": [{"name": "pin", "sphere": {}, "surface": "wood"},
                            {"instance": "pin", "disc": {}, "surface": "wood"}]})")
                   .what,
