@@ -3,6 +3,7 @@
 /// Sources, imports, params and descriptors of the elaborator.
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -227,7 +228,8 @@ void Elaborator::describe_param(const Graph& graph, const Param& p, Scope* scope
     if (lo && hi) info.range = {*lo, *hi};
     for (double x : info.value)
       if (lo && hi && !(*lo <= x && x <= *hi))
-        diagnostics_.add(Diag::ParamRange, value_span, p.name.text, x, *lo, *hi);
+        diagnostics_.add(Diag::ParamRange, value_span, p.name.text, std::isnan(x) ? std::abs(x) : x,
+                         *lo, *hi);  // its sign says nothing
   }
   for (const Param::Meta& m : p.meta) {
     const Value text = expr(c, m.value);

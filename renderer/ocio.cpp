@@ -66,7 +66,8 @@ Result<std::vector<float>> in_module::display(const Film& film, const View& aske
                  "name one: --ocio FILE, or set $OCIO"};
   OIIO::ColorConfig config(file);
   if (config.has_error())
-    return Error{file, "cannot be read as an OpenColorIO configuration: " + config.geterror(), ""};
+    return Error{file, "cannot be read as an OpenColorIO configuration: " + config.geterror(),
+                 "check the spelling of what --ocio or $OCIO names"};
   const Result<View> view = chosen(config, asked);
   if (!view) return view.error();
   const auto space = interchange(config);
