@@ -236,7 +236,8 @@ Result<StoredFilm> load_film(const std::string& path) {
     return Error{path, "is a folder, not a film", "name a file in it"};
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file && bytes.empty()) return Error{path, "cannot be read", "check the spelling and the folder you are in"};
+  if (!file && bytes.empty())
+    return Error{path, "cannot be read", "check the spelling and the folder you are in"};
   const std::string hint = "films are what `mms render -o NAME.film` and checkpoints write";
   if (!bytes.starts_with(kFilmMagic) || bytes.size() < kBodyAt)
     return Error{path, "is no film", hint};

@@ -56,7 +56,8 @@ Result<Mesh> load_mesh(const std::string& path, const Transform& transform) {
                                   aiProcess_SortByPType | aiProcess_PreTransformVertices);
   if (!scene || !scene->HasMeshes())
     return Error{path, std::string("cannot read the mesh: ") + importer.GetErrorString(),
-                 "is it whole, and of the kind that its name says?", Error::Cause::File};
+                 "is it whole, with faces, and of the kind that its name says?",
+                 Error::Cause::File};
   bool normals = true, uvs = true;  // kept only if all parts have them
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     normals &= scene->mMeshes[i]->HasNormals();

@@ -78,7 +78,10 @@ Exit usage_error(const CLI::App& app, const CLI::ParseError& e, const std::strin
     const std::string name = "mms " + verb->get_name();
     const std::string text = e.what();
     const std::size_t end = text.find('\n');
-    print_error({name, text.substr(0, end),
+    const std::size_t count = text.find(": At Most 1 required but received ");
+    print_error({name,
+                 count == text.npos ? text.substr(0, end)
+                                    : text.substr(0, count) + " is given more than once",
                  end == text.npos ? fmt::format("`{} --help` shows the options", name)
                                   : text.substr(end + 1)});
     return Exit::Usage;

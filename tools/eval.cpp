@@ -90,6 +90,9 @@ Exit print_values(const Compiled& compiled, const EvalOptions& options,
 Exit eval(const EvalOptions& options) {
   std::vector<std::string> files = options.files;
   std::string expression = options.item;
+  if (expression.find_first_not_of(" \t\n") == std::string::npos)
+    return fail(Exit::Usage,
+                {"mms eval", "the expression is empty", "for example: mms eval '2^0.5'"}, options);
   if (expression == "-" || expression.ends_with(".mms") || expression.ends_with(".mmsc")) {
     files.push_back(expression);
     expression.clear();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/evaluate.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "api/inputs.h"
@@ -62,7 +64,10 @@ std::string slot_text(const vm::Interpreter<R>& machine, vm::SlotType type, int 
     return value ? "true" : "false";
   }
   std::vector<R> values;
-  for (int c = 0; c < vm::block_count(type); ++c) values.push_back(machine.result(k, c)[0]);
+  for (int c = 0; c < vm::block_count(type); ++c) {
+    const R x = machine.result(k, c)[0];
+    values.push_back(std::isnan(x) ? std::abs(x) : x);  // the sign of NaN says nothing
+  }
   numbers.insert(numbers.end(), values.begin(), values.end());
   if (type == vm::SlotType::Real) return fmt::format("{}", values[0]);
   return fmt::format("spectrum({})", fmt::join(values, ", "));

@@ -10,6 +10,7 @@
 #include "lang/format.h"
 #include "tools/commands.h"
 #include "tools/script.h"
+#include "tools/stored.h"
 
 namespace mms::tools {
 
@@ -20,8 +21,13 @@ struct FormatOptions : ScriptOptions {
 };
 
 Exit format_one(const std::string& file, const FormatOptions& options) {
-  const Result<lang::SourcePtr> source = api::read_source(file);
+  const Result<lang::SourcePtr> source = read_script(file);
   if (!source) return fail(Exit::File, source.error(), options);
+  if (any_stored({*source}))
+    return fail(Exit::File,
+                {(*source)->name, "is a compiled program, which has no layout",
+                 "lay out the scripts that it was made from"},
+                options);
   lang::Diagnostics diagnostics;
   const auto text = lang::format(*source, diagnostics);
   print(diagnostics, options);

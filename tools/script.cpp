@@ -283,11 +283,20 @@ std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
   return std::nullopt;
 }
 
+Result<lang::SourcePtr> read_script(const std::string& file) {
+  Result<lang::SourcePtr> source = api::read_source(file);
+  constexpr std::size_t kLooked = 8000;  // bytes, as git looks at
+  if (!source || any_stored({*source}) ||
+      (*source)->text.substr(0, kLooked).find('\0') == std::string::npos)
+    return source;
+  return Error{(*source)->name, "is no text", "scripts are UTF-8; is it the file that you mean?"};
+}
+
 std::optional<std::vector<lang::SourcePtr>> read_sources(const std::vector<std::string>& files,
                                                          const ScriptOptions& options, Exit& exit) {
   std::vector<lang::SourcePtr> sources;
   for (const std::string& file : files) {
-    Result<lang::SourcePtr> source = api::read_source(file);
+    Result<lang::SourcePtr> source = read_script(file);
     if (!source) {
       exit = fail(Exit::File, source.error(), options);
       return std::nullopt;

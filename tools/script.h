@@ -79,6 +79,10 @@ std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
 std::optional<Compiled> compile_files(const std::vector<std::string>& files,
                                       const ScriptOptions& options, Exit& exit);
 
+/// The text of a script, or a compiled program, from `file`; `-` is standard input. What is
+/// neither, such as a picture, is an error rather than a hundred of its bytes.
+Result<lang::SourcePtr> read_script(const std::string& file);
+
 /// The texts of `files`; empty where one cannot be read, which has then been said.
 std::optional<std::vector<lang::SourcePtr>> read_sources(const std::vector<std::string>& files,
                                                          const ScriptOptions& options, Exit& exit);

@@ -137,6 +137,28 @@ TEST_CASE("empty file") {
   CHECK(folder.file_count() == 1);
 }
 
+TEST_CASE("what is no text is told in one message, and no layout is made of it") {
+  const Folder folder;
+  folder.write("s.mms", kGood);
+  REQUIRE(folder.mms("compile s.mms -o s.mmsc").exit == 0);
+  const std::string program = folder.read("s.mmsc");
+  check_message(folder.mms("fmt s.mmsc"), 3, "s.mmsc", "is a compiled program");
+  folder.write("wide.mms", std::string("s\0u\0r\0", 6));
+  for (const char* verb : {"check", "fmt", "info"}) {
+    const Outcome run = folder.mms(std::string(verb) + " wide.mms");
+    check_message(run, 3, "wide.mms", "is no text");
+    CHECK(run.err.size() < 200);
+  }
+  CHECK(folder.read("s.mmsc") == program);
+}
+
+TEST_CASE("nothing to evaluate, and options that are given twice") {
+  const Folder folder;
+  check_message(folder.mms("eval ''"), 2, "mms eval", "empty");
+  check_message(folder.mms("eval 1 --precision float --precision double"), 2, "--precision",
+                "given more than once");
+}
+
 TEST_CASE("syntax error") {
   check_script("surface \"s\"\n  bsdf = matte(0.5;\nend\n", "bad.mms:2:", "error");
 }

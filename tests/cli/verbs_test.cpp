@@ -144,6 +144,7 @@ TEST_CASE("eval prints values of every type") {
   CHECK(eval("'2i * 2i + 1i'") == "-4+1i\n");
   CHECK(eval("-- '-7 % 3'") == "2\n");
   CHECK(eval("'[1.0, 2.0, 3.5]'") == "[1, 2, 3.5]\n");
+  CHECK(eval("'[sqrt(-1.0), -sqrt(-1.0)]'") == "[nan, nan]\n");
 }
 
 TEST_CASE("eval reads variables, files and standard input") {
