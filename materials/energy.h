@@ -31,7 +31,7 @@ extern const FacetTables kGgxTables, kBeckmannTables;
 /// the index rises on the far side, [1] where it falls. What is said of stretched facets is how
 /// they differ from round ones (InterfaceLoss), so that few nodes do.
 struct InterfaceTables {
-  const float* loss[2];            ///< [alpha][index][direction], isotropic
+  const float* loss[2];            ///< its root, [alpha][index][direction], isotropic
   const float* mean[2];            ///< [alpha][index], isotropic, over `mean_unit`
   const float* stretched[2];       ///< [alpha][aspect][azimuth][index][direction]
   const float* stretched_mean[2];  ///< [alpha][aspect][index], over the mean of round facets
@@ -53,7 +53,8 @@ inline constexpr int kAlpha = 65, kDirection = 65, kMean = 193;
 inline constexpr int kStretchedAlpha = 23, kAspect = 10, kAzimuth = 13, kStretchedDirection = 41;
 inline constexpr int kStretchedMean = 65, kMeanAspect = 12;
 /// [1] where the index falls on the far side: the loss has a ridge along the critical angle there.
-inline constexpr int kInterfaceAlpha = 19, kIndex[] = {29, 37}, kInterfaceDirection[] = {61, 75};
+inline constexpr int kInterfaceAlpha[] = {19, 25}, kIndex[] = {29, 37};
+inline constexpr int kInterfaceDirection[] = {61, 75};
 inline constexpr int kInterfaceMean = 65;
 /// Bent: of stretched facets of an interface.
 inline constexpr int kBentAlpha[] = {6, 7}, kBentAspect[] = {5, 6}, kBentAzimuth[] = {11, 14};
@@ -154,15 +155,17 @@ inline R dense_direction(R z, R s, R width) {
 }
 
 /// The same where the index falls, `eta` < 1. A part of it climbs within `width` of the critical
-/// angle, of cosine `zc`; less of it the rougher the facets are, as they blur the ridge away.
+/// angle, of cosine `zc`; less of it the rougher the facets are, as they blur the ridge away. For
+/// indices next to 1 a part climbs where z is zc^2: below, refraction leads to the wrong side.
 template <class R>
 inline R along_ridge(R z, R s, R alpha, R zc, R eta) {
   const R w = width(alpha), scale = R(1.5) * w, share = R(1.3) * (1 - alpha) * (1 - alpha);
   const auto climb = [scale](R sine) { return sine / std::sqrt(sine * sine + scale * scale); };
   const R from = climb(-zc), ridge = (climb(z * eta - s * zc) - from) / (climb(eta) - from);
+  const R wrong = eta * eta / 2;
   return (towards_grazing(direction(z, s, w)) + R(0.7) * towards_grazing(angle(z, s)) +
-          share * ridge) /
-         (R(1.7) + share);
+          share * ridge + wrong * direction(z, s, zc * zc)) /
+         (R(1.7) + share + wrong);
 }
 
 /// That, moved by a quotient of linear functions that puts the critical angle at one place for
@@ -326,10 +329,11 @@ struct InterfaceLoss {
     using namespace axes;
     const int directions = kInterfaceDirection[falls()], indices = kIndex[falls()];
     const auto d = Stencil<R>::at(interface_direction(z, s, alpha, eta), directions);
-    const auto a = Stencil<R>::at(interface_alpha(alpha), kInterfaceAlpha);
+    const auto a = Stencil<R>::at(interface_alpha(alpha), kInterfaceAlpha[falls()]);
     const auto n = Stencil<R>::at(index(eta), indices);
     const int n1 = coefficients(directions), n0 = n1 * coefficients(indices);
-    return interpolate(tables->loss[falls()], a, n0, n, n1, d);
+    const R root = interpolate(tables->loss[falls()], a, n0, n, n1, d);
+    return root > 0 ? root * root : R(0);
   }
 
  private:

@@ -100,8 +100,10 @@ double interface_loss(const Ggx<double>& facets, double eta, Vec3d wo, int angle
         return f.reflected * (r.z > 0 ? hidden(r) : 1) + f.transmitted * (t.z < 0 ? hidden(t) : 1);
       },
       [&](Vec3d h) {
-        const double c = std::clamp(dot(wo, h), 0.0, 1.0);
-        return std::array{2 * c * h.z - z, refraction(h, c).z, refraction_g2(c, eta)};
+        const double c = std::clamp(dot(wo, h), 0.0, 1.0), g2 = refraction_g2(c, eta);
+        // refraction(h, c).z times c + g: bounded where facets only just face wo.
+        const double down = h.z * (1 - eta) * (1 + eta) - z * (c + std::sqrt(std::max(0.0, g2)));
+        return std::array{2 * c * h.z - z, down, g2};
       },
       angles);
 }
@@ -123,19 +125,22 @@ struct RoundInterface {
   }
 };
 
+/// The tables hold the root of the loss: it falls less steeply, and float keeps more of its digits.
 RoundInterface write_interface(std::FILE* to, const std::string& name, bool rising) {
   using namespace axes;
   RoundInterface round;
   round.loss = write(
       to, name,
-      Grid({kInterfaceAlpha, kIndex[!rising], kInterfaceDirection[!rising]}, [&](const double* x) {
-        const double a = std::max(x[0] * x[0] * x[0], 1e-5), eta = index_at(x[1], rising);
-        const double c = cosine(std::min(x[2], 1 - kLeast), [&](double z, double s) {
-          return interface_direction(z, s, a, eta);
-        });
-        const double z = std::max(c, kLeast * a);
-        return interface_loss(Ggx<double>{{a, a}}, eta, {std::sqrt(1 - z * z), 0, z}, kAngles);
-      }));
+      Grid({kInterfaceAlpha[!rising], kIndex[!rising], kInterfaceDirection[!rising]},
+           [&](const double* x) {
+             const double a = std::max(x[0] * x[0] * x[0], 1e-5), eta = index_at(x[1], rising);
+             const double c = cosine(std::min(x[2], 1 - kLeast), [&](double z, double s) {
+               return interface_direction(z, s, a, eta);
+             });
+             const double z = std::max(c, kLeast * a);
+             return std::sqrt(
+                 interface_loss(Ggx<double>{{a, a}}, eta, {std::sqrt(1 - z * z), 0, z}, kAngles));
+           }));
   const InterfaceTables tables = round.tables();
   round.mean = write(
       to, name + "Mean", Grid({kInterfaceMean, kIndex[!rising]}, [&](const double* x) {
