@@ -98,6 +98,7 @@ constexpr const char* kVariants[] = {
     "dielectric(1.5, 0.4, anisotropy = 0.8)",
     "dielectric(1.45 + 1e-14 / ($wavelength * $wavelength), 0.4)",
     "dielectric(1.45 + 1e-14 / ($wavelength * $wavelength), 0.4, anisotropy = 0.8)",
+    "beckmann_dielectric(1.5, 0.4, anisotropy = 0.8)",
     "coat(conductor(0.2, 3.4, 0.3), matte(0.5))",
     "coat(mirror(), fresnel_mix(matte(0.5), glossy(1, 40.0)))",
 };

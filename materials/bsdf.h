@@ -200,6 +200,8 @@ Result Bsdf<R>::with_model(int i, Result none, Visit visit) const {
       return visit(ColouredMetal<R>(p));
     case Lobe::Dielectric:
       return visit(Dielectric<R>(p));
+    case Lobe::BeckmannDielectric:
+      return visit(BeckmannDielectric<R>(p));
     case Lobe::PhongGlass:
       return visit(PhongGlass<R>(p));
     case Lobe::Slab:

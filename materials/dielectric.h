@@ -2,23 +2,24 @@
 #pragma once
 
 /// \file
-/// `dielectric`: an interface that reflects by Fresnel and refracts the rest, ideal at roughness 0,
-/// else GGX facets (Walter et al. 2007). Each wavelength has its own index, so a rough direction is
-/// looked up with a different half vector for each: that is what the hypothetical pdfs hold. What
-/// facets send on to other facets is given back on both sides (materials/energy.h).
+/// `dielectric` and `beckmann_dielectric`: an interface that reflects by Fresnel and refracts the
+/// rest, ideal at roughness 0, else GGX or Beckmann facets (Walter et al. 2007). Each wavelength
+/// has its own index, so a rough direction is looked up with a different half vector for each: that
+/// is what the hypothetical pdfs hold. What facets send on to other facets is given back on both
+/// sides (materials/energy.h).
 
 #include "materials/fresnel.h"
 #include "materials/microfacet.h"
 
 namespace mms::materials {
 
-template <class R>
-struct Dielectric {
+template <class R, template <class> class Distribution>
+struct RoughInterface {
   const R* ior;
-  Ggx<R> facets;
+  Distribution<R> facets;
   Spectrum<R> reflected, transmitted;
 
-  explicit Dielectric(const R* p)
+  explicit RoughInterface(const R* p)
       : ior(p),
         facets{Alpha<R>::from(p[kWavelengths], p[3 * kWavelengths + 1])},
         reflected(weight_at(p + kWavelengths + 1)),
@@ -130,8 +131,8 @@ struct Dielectric {
   Bounces bounces(int j, Vec3<R> wo) const {
     Bounces b;
     b.eta = rough_eta(j, wo);
-    b.here = {&kGgxInterface, facets.ax, facets.ay, b.eta};
-    b.there = {&kGgxInterface, facets.ax, facets.ay, 1 / b.eta};
+    b.here = {&facets.interface(), facets.ax, facets.ay, b.eta};
+    b.there = {&facets.interface(), facets.ax, facets.ay, 1 / b.eta};
     b.mean_here = b.here.mean();
     b.mean_there = b.there.mean();
     b.lost = b.here.at(wo);
@@ -200,5 +201,10 @@ struct Dielectric {
     return out;
   }
 };
+
+template <class R>
+using Dielectric = RoughInterface<R, Ggx>;
+template <class R>
+using BeckmannDielectric = RoughInterface<R, Beckmann>;
 
 }  // namespace mms::materials

@@ -23,6 +23,12 @@ const float* const kFresnelProduct = kFresnelProductTable;
 const InterfaceTables kGgxInterface{{kGgxDense, kGgxRare},
                                     {kGgxDenseMean, kGgxRareMean},
                                     {kGgxDenseStretched, kGgxRareStretched},
-                                    {kGgxDenseStretchedMean, kGgxRareStretchedMean}};
+                                    {kGgxDenseStretchedMean, kGgxRareStretchedMean},
+                                    kGgxLeastMean};
+const InterfaceTables kBeckmannInterface{{kBeckmannDense, kBeckmannRare},
+                                         {kBeckmannDenseMean, kBeckmannRareMean},
+                                         {kBeckmannDenseStretched, kBeckmannRareStretched},
+                                         {kBeckmannDenseStretchedMean, kBeckmannRareStretchedMean},
+                                         kBeckmannLeastMean};
 
 }  // namespace mms::materials

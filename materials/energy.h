@@ -27,16 +27,19 @@ struct FacetTables {
 };
 extern const FacetTables kGgxTables, kBeckmannTables;
 
-/// The same of GGX facets of a lossless dielectric, reflection and refraction together: [0] where
-/// the index rises on the far side, [1] where it falls. What is said of stretched facets is how
-/// they differ from round ones (InterfaceLoss), so that few nodes do.
+/// The same of facets of a lossless dielectric, reflection and refraction together: [0] where the
+/// index rises on the far side, [1] where it falls. What is said of stretched facets is how they
+/// differ from round ones (InterfaceLoss), so that few nodes do.
 struct InterfaceTables {
   const float* loss[2];            ///< its root, [alpha][index][direction], isotropic
   const float* mean[2];            ///< [alpha][index], isotropic, over `mean_unit`
   const float* stretched[2];       ///< [alpha][aspect][azimuth][index][direction]
   const float* stretched_mean[2];  ///< [alpha][aspect][index], over the mean of round facets
+  float least_mean;                ///< over `mean_unit`: less than any mean is in truth
 };
-extern const InterfaceTables kGgxInterface;
+extern const InterfaceTables kGgxInterface, kBeckmannInterface;
+/// `least_mean` of both; Beckmann's means have no logarithm, which `mean_unit` has.
+inline constexpr float kGgxLeastMean = 0.1f, kBeckmannLeastMean = 0.003f;
 
 /// Mean Fresnel reflectance over the directions that a coat's lobe scatters to, minus that at the
 /// direction it scatters from, for indices above 1: [gloss][index][direction] of `glossy`,
@@ -300,22 +303,23 @@ struct InterfaceLoss {
   /// l(w) in [0, 1].
   R at(Vec3<R> w) const {
     const R z = std::abs(w.z), s = std::sqrt(w.x * w.x + w.y * w.y);
-    if (ax == ay) return limited(round(ax, z, s), R(0));
+    // Less is all but noise in float, and Beckmann's falls as a normal distribution above alpha.
+    const R least = R(1e-4) * ax * ay;
+    if (ax == ay) return limited(round(ax, z, s), least);
     const StretchedInterface<R> f = stretched({w.x, w.y, z});
-    const R like = round(f.like(), z, s);
-    return limited(like + f.scale() * difference(f), like / 20);  // in truth no less than a twelfth
+    const R like = round(f.like(), z, s);  // in truth no less than a twelfth of it
+    return limited(like + f.scale() * difference(f), std::max(like / 20, least));
   }
 
-  /// m in (0, 1). Its table rings next to alpha = 0 for indices below 1/4; in truth no mean is less
-  /// than 0.15 of the unit.
+  /// m in (0, 1). Its table rings next to alpha = 0 for indices below 1/4: see `least_mean`.
   R mean() const {
     using namespace axes;
     const R alpha = ax == ay ? ax : std::sqrt(ax * ay);
     const auto a = Stencil<R>::at(log_alpha(alpha), kInterfaceMean);
     const auto n = Stencil<R>::at(index(eta), kIndex[falls()]);
-    const R mean =
-        mean_unit(alpha * alpha) *
-        std::max(R(0.1), interpolate(tables->mean[falls()], a, coefficients(kIndex[falls()]), n));
+    const R mean = mean_unit(alpha * alpha) *
+                   std::max(R(tables->least_mean), interpolate(tables->mean[falls()], a,
+                                                               coefficients(kIndex[falls()]), n));
     return ax == ay ? mean : mean * std::max(R(0.5), mean_ratio(alpha));  // in truth above 1
   }
 
@@ -337,10 +341,7 @@ struct InterfaceLoss {
   }
 
  private:
-  static R limited(R l, R least) {
-    const R from = least > 0 ? least : R(0);
-    return l > from ? std::min(l, R(1)) : from;
-  }
+  static R limited(R l, R least) { return l > least ? std::min(l, R(1)) : least; }
   int falls() const { return eta < 1; }
 
   /// Of l from that of round facets, over its scale.

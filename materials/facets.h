@@ -10,7 +10,7 @@
 ///   density(h)            facets of unit normal `h` per steradian and unit area of surface
 ///   shadow(w)             |w.z| Lambda(w): finite at grazing angles
 ///   sample_visible(wo, u1, u2)  a normal that `wo` (z > 0) sees
-///   tables()              what multiple scattering needs (materials/energy.h)
+///   tables(), interface() what multiple scattering needs (materials/energy.h)
 ///   coated(), kCoatedGain what a coat needs, and what it gains at most where facets are as
 ///                         stretched as they can be, by quadrature (materials/coated.h)
 
@@ -76,6 +76,7 @@ struct Ggx : Alpha<R> {
   }
 
   static const FacetTables& tables() { return kGgxTables; }
+  static const InterfaceTables& interface() { return kGgxInterface; }
   static const float* coated() { return kGgxCoated; }
   static constexpr double kCoatedGain = 0.037;
 };
@@ -125,6 +126,7 @@ struct Beckmann : Alpha<R> {
   }
 
   static const FacetTables& tables() { return kBeckmannTables; }
+  static const InterfaceTables& interface() { return kBeckmannInterface; }
   static const float* coated() { return kBeckmannCoated; }
   static constexpr double kCoatedGain = 0.048;
 

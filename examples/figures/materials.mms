@@ -27,6 +27,7 @@ surface beckmann bsdf = beckmann(1, 0.4); end
 surface conductor bsdf = conductor(gold_n($wavelength), gold_k($wavelength), 0.3); end
 surface coloured_metal bsdf = coloured_metal(rgb(0.9, 0.5, 0.2), rgb(0.9, 0.9, 0.4), 0.3); end
 surface dielectric bsdf = dielectric(1.5, 0.3); end
+surface beckmann_dielectric bsdf = beckmann_dielectric(1.5, 0.3); end
 
 surface phong_glass bsdf = phong_glass(1.5, 400.0); end
 

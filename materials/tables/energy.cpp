@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/energy.h and writes them as C++ to the named file: run by the
-// build, on two threads or more, for about a minute and a half of one core.
+// build, on two threads or more, for about two minutes of one core.
 #include <cstdio>
 #include <string>
 
@@ -80,8 +80,8 @@ double mean_loss(const Loss& loss, double alpha2, int azimuths) {
 
 /// The loss at one facet's interface of relative index `eta`: what it reflects or refracts and
 /// other facets then take, or what leaves to the wrong side.
-template <int Points = 16>
-double interface_loss(const Ggx<double>& facets, double eta, Vec3d wo, int angles) {
+template <int Points, class Facets>
+double interface_loss(const Facets& facets, double eta, Vec3d wo, int angles) {
   const double z = wo.z, so = facets.shadow(wo);
   const auto hidden = [&](Vec3d wi) {  // G2 / G1 away from 1
     const double s = z * facets.shadow(wi), c = std::abs(wi.z);
@@ -119,16 +119,20 @@ double from_log(double x) { return std::pow(axes::kMinMeanAlpha, 1 - x); }
 
 /// Tables of round facets: the loss and its mean.
 struct RoundInterface {
+  float least_mean = 0;
   std::vector<float> loss, mean;
   InterfaceTables tables() const {
-    return {{loss.data(), loss.data()}, {mean.data(), mean.data()}, {}, {}};
+    return {{loss.data(), loss.data()}, {mean.data(), mean.data()}, {}, {}, least_mean};
   }
 };
 
 /// The tables hold the root of the loss: it falls less steeply, and float keeps more of its digits.
-RoundInterface write_interface(std::FILE* to, const std::string& name, bool rising) {
+template <template <class> class Distribution, int Points>
+RoundInterface write_round_interface(std::FILE* to, const std::string& name, bool rising,
+                                     float least_mean) {
   using namespace axes;
   RoundInterface round;
+  round.least_mean = least_mean;
   round.loss = write(
       to, name,
       Grid({kInterfaceAlpha[!rising], kIndex[!rising], kInterfaceDirection[!rising]},
@@ -138,8 +142,8 @@ RoundInterface write_interface(std::FILE* to, const std::string& name, bool risi
                return interface_direction(z, s, a, eta);
              });
              const double z = std::max(c, kLeast * a);
-             return std::sqrt(
-                 interface_loss(Ggx<double>{{a, a}}, eta, {std::sqrt(1 - z * z), 0, z}, kAngles));
+             return std::sqrt(interface_loss<Points>(Distribution<double>{{a, a}}, eta,
+                                                     {std::sqrt(1 - z * z), 0, z}, kAngles));
            }));
   const InterfaceTables tables = round.tables();
   round.mean = write(
@@ -163,6 +167,7 @@ double bent_index_at(double place, bool rising) {
 
 /// What stretched facets lose other than the round ones of the tables. Coarse: 48 angles
 /// of 8 points find a loss within 1e-3.
+template <template <class> class Distribution>
 void write_stretched_interface(std::FILE* to, const std::string& name, bool rising,
                                const RoundInterface& round) {
   using namespace axes;
@@ -187,7 +192,8 @@ void write_stretched_interface(std::FILE* to, const std::string& name, bool risi
              const double z = std::max(c, kLeast * alpha), s = std::sqrt(1 - z * z);
              const auto f = at(z, s);
              const InterfaceLoss<double> loss{&tables, wide, narrow, eta};
-             return (interface_loss<8>(Ggx<double>{{wide, narrow}}, eta, {f.x, f.y, z}, 48) -
+             return (interface_loss<8>(Distribution<double>{{wide, narrow}}, eta, {f.x, f.y, z},
+                                       48) -
                      loss.round(f.like(), z, s)) /
                     f.scale();
            }),
@@ -203,6 +209,16 @@ void write_stretched_interface(std::FILE* to, const std::string& name, bool risi
               loss{&tables, wide, narrow, eta};
           return mean_loss(loss, a2, wide > narrow ? 12 : 1) * mean_unit(a2) / like.mean();
         }));
+}
+
+template <template <class> class Distribution, int Points>
+void write_interface(std::FILE* to, const std::string& name, float least_mean) {
+  for (const bool rising : {true, false}) {
+    const std::string side = name + (rising ? "Dense" : "Rare");
+    write_stretched_interface<Distribution>(
+        to, side, rising,
+        write_round_interface<Distribution, Points>(to, side, rising, least_mean));
+  }
 }
 
 /// Over x = cos^2, by the inverse of the latitudal distribution.
@@ -309,10 +325,7 @@ int main(int argc, char** argv) {
     tables::write_facet_coat(to, tables::write_facets<Ggx>(to, "kGgx"));
     tables::write_facets<Beckmann>(to, "kBeckmann");
     tables::write_coat(to);
-    for (const bool rising : {true, false}) {
-      const std::string name = rising ? "kGgxDense" : "kGgxRare";
-      tables::write_stretched_interface(to, name, rising,
-                                        tables::write_interface(to, name, rising));
-    }
+    tables::write_interface<Ggx, 16>(to, "kGgx", kGgxLeastMean);
+    tables::write_interface<Beckmann, 8>(to, "kBeckmann", kBeckmannLeastMean);
   });
 }

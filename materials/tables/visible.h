@@ -91,8 +91,8 @@ double visible_mean(const Ggx<double>& ggx, Vec3d wo, const F& f, const Edges& e
   return turn_mean(ray, std::atan2(w.y, w.x), angles, ggx.ax == ggx.ay);
 }
 
-/// The same of Beckmann's, over slopes as polar coordinates.
-template <class F, class Edges>
+/// The same of Beckmann's, over slopes as polar coordinates; twice the points.
+template <int Points = 16, class F, class Edges>
 double visible_mean(const Beckmann<double>& facets, Vec3d wo, const F& f, const Edges& edges,
                     int angles) {
   const double t = facets.tangent(wo), l = std::hypot(t, wo.z), c = wo.z / l, s = t / l;
@@ -104,7 +104,7 @@ double visible_mean(const Beckmann<double>& facets, Vec3d wo, const F& f, const 
       return normalize(Vec3d{-facets.ax * u * r, -facets.ay * v * r, 1});
     };
     const double end = s * x * reach > c ? c / (s * x) : reach;  // facets that face away
-    return integrate_between_edges<32>(
+    return integrate_between_edges<2 * Points>(
         [&](double r) { return 2 * r * std::exp(-r * r) * (c - s * x * r) * f(normal(r)); },
         [&](double r) { return edges(normal(r)); }, 0, end);
   };

@@ -90,6 +90,14 @@ inline std::vector<Case> smooth_cases() {
   put("dielectric anisotropic", dielectric(1.5, 0.4, 1, 1, 0.8));
   put("dielectric anisotropic across, dispersive",
       dielectric(ramp(1.6, 1.4), 0.6, ramp(0.5, 1), 0.8, -0.5));
+  put("beckmann_dielectric 1.5, 0.3", beckmann_dielectric(1.5, 0.3));
+  put("beckmann_dielectric dispersive, 0.5", beckmann_dielectric(ramp(1.6, 1.4), 0.5));
+  put("beckmann_dielectric 1.1, 0.8", beckmann_dielectric(1.1, 0.8));
+  put("beckmann_dielectric 2.5, 0.6, tinted", beckmann_dielectric(2.5, 0.6, 0.5, ramp(0.2, 0.8)));
+  put("beckmann_dielectric 0.8, 1", beckmann_dielectric(0.8, 1));
+  put("beckmann_dielectric anisotropic", beckmann_dielectric(1.5, 0.4, 1, 1, 0.8));
+  put("beckmann_dielectric anisotropic across, dispersive",
+      beckmann_dielectric(ramp(1.6, 1.4), 0.6, ramp(0.5, 1), 0.8, -0.5));
   return c;
 }
 

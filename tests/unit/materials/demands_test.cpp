@@ -60,6 +60,8 @@ std::vector<Demand> demands() {
       {"film_conductor", film_conductor(2.5, 3, 1.5, 3e-7, 5e-7, 0.6), true, true},
       {"dielectric", dielectric(1.5, 0.6), true, false},
       {"dielectric, stretched", dielectric(1.5, 0.6, 1, 1, 0.8), true, false},
+      {"beckmann_dielectric", beckmann_dielectric(1.5, 0.6), true, false},
+      {"beckmann_dielectric, stretched", beckmann_dielectric(1.5, 0.6, 1, 1, 0.8), true, false},
       {"phong_glass", phong_glass(1.5, 4), false, false}};
 }
 

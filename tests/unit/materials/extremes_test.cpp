@@ -39,11 +39,13 @@ std::vector<Material> extreme_materials() {
     for (double a : {0.0, 1.0, -1.0}) m.push_back(beckmann(1, r, a));
     m.push_back(conductor(ramp(0.05, 3), ramp(0, 8), r));
     m.push_back(coloured_metal(ramp(0, 1), ramp(1, 0), r));
-    for (double ior : {1 + 1e-7, 1 - 1e-7, 1.0, 1.001, 1.5, 4.0, 0.25, 1e-9, 1e20})
-      m.push_back(dielectric(ior, r));
-    m.push_back(dielectric(ramp(0.9, 1.1), r));
-    for (double ior : {1 + 1e-7, 1.001, 1.5, 0.25, 1e20})
-      for (double a : {1.0, -1.0}) m.push_back(dielectric(ior, r, 1, 1, a));
+    for (Lobe lobe : {Lobe::Dielectric, Lobe::BeckmannDielectric}) {
+      for (double ior : {1 + 1e-7, 1 - 1e-7, 1.0, 1.001, 1.5, 4.0, 0.25, 1e-9, 1e20})
+        m.push_back(dielectric(ior, r, 1, 1, 0, lobe));
+      m.push_back(dielectric(ramp(0.9, 1.1), r, 1, 1, 0, lobe));
+      for (double ior : {1 + 1e-7, 1.001, 1.5, 0.25, 1e20})
+        for (double a : {1.0, -1.0}) m.push_back(dielectric(ior, r, 1, 1, a, lobe));
+    }
   }
   for (double g = 1e-12; g < 1e12; g *= 30) {
     m.push_back(glossy(1, g));
@@ -78,9 +80,11 @@ std::vector<Material> extreme_materials() {
     m.push_back(matte(bad));
     m.push_back(glossy(0.5, bad));
     m.push_back(microfacet(0.5, bad, bad));
-    m.push_back(dielectric(bad, 0.2));
-    m.push_back(dielectric(1.5, bad));
-    m.push_back(dielectric(1.5, 0.2, 1, 1, bad));
+    for (Lobe lobe : {Lobe::Dielectric, Lobe::BeckmannDielectric}) {
+      m.push_back(dielectric(bad, 0.2, 1, 1, 0, lobe));
+      m.push_back(dielectric(1.5, bad, 1, 1, 0, lobe));
+      m.push_back(dielectric(1.5, 0.2, 1, 1, bad, lobe));
+    }
     m.push_back(mix(matte(0.2), mirror(0.5), bad));
     if (!std::isinf(bad)) m.push_back(scale(matte(0.2), bad));
   }

@@ -108,11 +108,15 @@ inline Material interface(Lobe lobe, Value ior, double number, Value r, Value t)
   return m;
 }
 inline Material dielectric(Value ior, double roughness = 0, Value r = 1, Value t = 1,
-                           double anisotropy = 0) {
-  Material m = interface(Lobe::Dielectric, ior, roughness, r, t);
+                           double anisotropy = 0, Lobe lobe = Lobe::Dielectric) {
+  Material m = interface(lobe, ior, roughness, r, t);
   m.tree.nodes.back().params.resize(5);
   m.numbers.push_back(anisotropy);
   return m;
+}
+inline Material beckmann_dielectric(Value ior, double roughness = 0, Value r = 1, Value t = 1,
+                                    double anisotropy = 0) {
+  return dielectric(ior, roughness, r, t, anisotropy, Lobe::BeckmannDielectric);
 }
 inline Material phong_glass(Value ior, double n, Value r = 1, Value t = 1) {
   return interface(Lobe::PhongGlass, ior, n, r, t);

@@ -237,6 +237,7 @@ TEST_CASE("a lossless material is as bright as its light, in a render") {
                            "dielectric(1.5)",
                            "dielectric(1.5, 0.4)",
                            "dielectric(1.1, 0.8)",
+                           "beckmann_dielectric(1.5, 0.4)",
                            "slab(1.5)",
                            "film_dielectric(1.5, 1.38, 300nm, $wavelength)",
                            "fresnel_mix(matte(1), glossy(1, 30))",
