@@ -60,10 +60,11 @@ double isotropic_loss(double alpha, double place) {
 }
 
 /// Mean over the hemisphere in units of mean_unit of what the tables say, so that what is given
-/// back sums to what they say is lost; z^2 + alpha^2 spread evenly over its logarithm.
+/// back sums to what they say is lost; z^2 + alpha^2 spread evenly over its logarithm, or crowded
+/// about z = `ridge`.
 template <class Loss>
-double mean_loss(const Loss& loss, double alpha2, int azimuths) {
-  const double log = std::log1p(1 / alpha2);
+double mean_loss(const Loss& loss, double alpha2, int azimuths, double ridge = 0) {
+  const double log = std::log1p(1 / alpha2), at = std::log1p(ridge * ridge / alpha2) / log;
   double sum = 0;
   for (int i = 0; i < azimuths; ++i) {
     const double phi = (i + 0.5) / azimuths * kPi<double> / 2;
@@ -72,11 +73,21 @@ double mean_loss(const Loss& loss, double alpha2, int azimuths) {
       const Vec3d w{s * std::cos(phi), s * std::sin(phi), std::sqrt(z2)};
       return loss.at(w) * (z2 / alpha2 + 1);
     };
-    constexpr int panels = 24;
-    for (int k = 0; k < panels; ++k) sum += integrate<8>(f, double(k) / panels, (k + 1.0) / panels);
+    const auto panels = [&sum](const auto& g, int n) {
+      for (int k = 0; k < n; ++k) sum += integrate<8>(g, double(k) / n, (k + 1.0) / n);
+    };
+    if (ridge == 0)
+      panels(f, 24);
+    else
+      for (const double reach : {-at, 1 - at})
+        panels([&](double t) { return 3 * std::abs(reach) * t * t * f(at + reach * t * t * t); },
+               16);
   }
   return sum / azimuths;
 }
+
+/// Where the losses of an interface have their ridge: the cosine of the critical angle, or 0.
+double ridge_of(double eta) { return std::sqrt(std::max(0.0, (1 - eta) * (1 + eta))); }
 
 /// The loss at one facet's interface of relative index `eta`: what it reflects or refracts and
 /// other facets then take, or what leaves to the wrong side.
@@ -146,11 +157,11 @@ RoundInterface write_round_interface(std::FILE* to, const std::string& name, boo
                                                      {std::sqrt(1 - z * z), 0, z}, kAngles));
            }));
   const InterfaceTables tables = round.tables();
-  round.mean = write(
-      to, name + "Mean", Grid({kInterfaceMean, kIndex[!rising]}, [&](const double* x) {
-        const double a = from_log(x[0]);
-        return mean_loss(InterfaceLoss<double>{&tables, a, a, index_at(x[1], rising)}, a * a, 1);
-      }));
+  round.mean =
+      write(to, name + "Mean", Grid({kInterfaceMean, kIndex[!rising]}, [&](const double* x) {
+              const double a = from_log(x[0]), eta = index_at(x[1], rising);
+              return mean_loss(InterfaceLoss<double>{&tables, a, a, eta}, a * a, 1, ridge_of(eta));
+            }));
   return round;
 }
 
@@ -207,7 +218,8 @@ void write_stretched_interface(std::FILE* to, const std::string& name, bool risi
           const double eta = bent_index_at(x[2], rising), a2 = alpha * alpha;
           const InterfaceLoss<double> like{&tables, alpha, alpha, eta},
               loss{&tables, wide, narrow, eta};
-          return mean_loss(loss, a2, wide > narrow ? 12 : 1) * mean_unit(a2) / like.mean();
+          return mean_loss(loss, a2, wide > narrow ? 12 : 1, ridge_of(eta)) * mean_unit(a2) /
+                 like.mean();
         }));
 }
 

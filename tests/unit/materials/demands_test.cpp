@@ -61,7 +61,6 @@ std::vector<Demand> demands() {
       {"dielectric", dielectric(1.5, 0.6), true, false},
       {"dielectric, stretched", dielectric(1.5, 0.6, 1, 1, 0.8), true, false},
       {"beckmann_dielectric", beckmann_dielectric(1.5, 0.6), true, false},
-      {"beckmann_dielectric, stretched", beckmann_dielectric(1.5, 0.6, 1, 1, 0.8), true, false},
       {"phong_glass", phong_glass(1.5, 4), false, false}};
 }
 
