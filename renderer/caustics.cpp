@@ -240,7 +240,10 @@ std::vector<PolishedBall> polished_balls(const SceneData& scene, const Compiled&
     const auto nodes = c.material.nodes();
     if (!c.placeless_material || c.bumps || nodes.size() != 1) continue;
     // Of what lets light through it is known of one how rays go.
-    if (c.material.transmits() && nodes[0].lobe != materials::Lobe::Dielectric) continue;
+    using materials::Lobe;
+    if (c.material.transmits() && nodes[0].lobe != Lobe::Dielectric &&
+        nodes[0].lobe != Lobe::BeckmannDielectric)
+      continue;
     if (!plain && !alone(scene, compiled, i)) continue;
     Scripts scripts(compiled);
     ScriptPoint point;
