@@ -359,14 +359,13 @@ LightSample Lights::sample_one(int choice, const Receiver& from, double u, doubl
     return s;
   }
   double relative = 1;
-  if (!tells_apart(from, c.radius, c.centre)) {
-    s.surface = place(c, u, v);
-  } else if (const Quad* q = std::get_if<Quad>(&shape)) {
+  const bool apart = tells_apart(from, c.radius, c.centre);
+  if (const Quad* q = std::get_if<Quad>(&shape); q && apart) {
     const SquareDensity p = places(*q, from);
     const auto [x, y] = p.sample(u, v);
     s.surface = place_at(*q, q->corner + q->edge_u * x + q->edge_v * y);
     relative = p.at(x, y);
-  } else if (const Disc* d = std::get_if<Disc>(&shape)) {
+  } else if (const Disc* d = std::get_if<Disc>(&shape); d && apart) {
     const DiscDensity p = places(*d, from);
     const auto [x, y] = p.sample(u, v);
     s.surface = place_at(*d, d->centre + (d->axes.s * x + d->axes.t * y) * d->radius);
@@ -388,14 +387,13 @@ double Lights::density(const Choice& c, const Receiver& from, const SurfacePoint
     return far_side(at, from.position) ? 0
                                        : Cone(*s, from).pdf(normalize(at.position - from.position));
   double relative = 1;
-  if (tells_apart(from, c.radius, c.centre)) {
-    if (const Quad* q = std::get_if<Quad>(&shape)) {
-      const auto [x, y] = along_edges(*q, at.position - q->corner);
-      relative = places(*q, from).at(x, y);
-    } else if (const Disc* d = std::get_if<Disc>(&shape)) {
-      const Vec3d l = d->axes.to_local(at.position - d->centre) / d->radius;
-      relative = places(*d, from).at(l.x, l.y);
-    }
+  const bool apart = tells_apart(from, c.radius, c.centre);
+  if (const Quad* q = std::get_if<Quad>(&shape); q && apart) {
+    const auto [x, y] = along_edges(*q, at.position - q->corner);
+    relative = places(*q, from).at(x, y);
+  } else if (const Disc* d = std::get_if<Disc>(&shape); d && apart) {
+    const Vec3d l = d->axes.to_local(at.position - d->centre) / d->radius;
+    relative = places(*d, from).at(l.x, l.y);
   }
   return to_solid_angle(relative / c.area, from.position, at);
 }
