@@ -24,7 +24,7 @@ constexpr int kDirectionsOfFirst = 2;
 
 /// Scattering events up to which each of few lights is drawn: more where the surface is not matte,
 /// and then in several directions, as those differ most where it mirrors a lamp about as wide as
-/// its lobe.
+/// its lobe; fewer at the second event.
 constexpr int kEachLightOfEven = 1, kEachLightOfUneven = 2;
 constexpr int kDrawsOfUneven = 8;
 
@@ -262,7 +262,7 @@ void Integrator::scatter(const Vertex& v, Scatterer s) {
     if (p.depth == 1 && !s.medium) s.directions = kDirectionsOfFirst;
     const bool even = s.even();
     if (p.depth <= (even ? kEachLightOfEven : kEachLightOfUneven) && world_.each_light)
-      draws = even ? 1 : kDrawsOfUneven;
+      draws = even ? 1 : kDrawsOfUneven / p.depth;
     if (world_.lights.any()) connect(v, s, draws);
   }
   go_on(v, s, draws);
