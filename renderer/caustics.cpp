@@ -239,8 +239,8 @@ std::vector<PolishedBall> polished_balls(const SceneData& scene, const Compiled&
     const CompiledDescriptor& c = compiled.of(d);
     const auto nodes = c.material.nodes();
     if (!c.placeless_material || c.bumps || nodes.size() != 1) continue;
-    // Of what lets light through it is known of one how rays go.
     using materials::Lobe;
+    // Of what lets light through it is known of one model how rays go, whatever its facets.
     if (c.material.transmits() && nodes[0].lobe != Lobe::Dielectric &&
         nodes[0].lobe != Lobe::BeckmannDielectric)
       continue;

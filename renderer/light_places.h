@@ -87,11 +87,13 @@ class DiscDensity {
   /// Values not negative: `centre` and `rim` are those at r = 0 and the mean at r = 1, and
   /// (slope_x, slope_y) is how the density changes across the disc.
   DiscDensity(double centre, double rim, double slope_x, double slope_y) {
-    const double largest = std::max(centre, rim), least = largest * kLeastShare;
-    const double mean = (std::max(centre, least) + std::max(rim, least)) / 2;
+    const double least = std::max(centre, rim) * kLeastShare;
+    centre = std::max(centre, least);
+    rim = std::max(rim, least);
+    const double mean = (centre + rim) / 2;
     if (!(mean > 0)) return;
-    centre_ = std::max(centre, least) / mean;
-    rim_ = std::max(rim, least) / mean;
+    centre_ = centre / mean;
+    rim_ = rim / mean;
     const double slope = std::sqrt(slope_x * slope_x + slope_y * slope_y);
     if (!(slope > 0)) return;
     tilt_ = std::min(slope / (2 * mean), kLargestTilt);
