@@ -227,35 +227,43 @@ double far_density_by(const PolishedBall& ball, const BallWay& way, Vec3d from, 
   return spread > 0 ? straight / (spread * far * far) : 0;
 }
 
+std::vector<float> ball_params(const SceneData& scene, const Compiled& compiled, int i) {
+  const Object& o = scene.objects[i];
+  const vm::Descriptor* d = scene.surfaces[o.surface].script;
+  if (!std::holds_alternative<Sphere>(o.shape) || !d) return {};
+  const CompiledDescriptor& c = compiled.of(d);
+  if (!c.placeless_material || c.bumps) return {};
+  const Cluster cluster = sample_cluster(0.5);
+  Scripts scripts(compiled);
+  ScriptPoint point;
+  point.object = &o;
+  point.cluster = &cluster;
+  const ScriptPoint* const lane = &point;
+  scripts.run(*d, EntryKind::Shade, {&lane, 1});
+  if (scripts.given_up(0)) return {};
+  std::vector<float> params(std::size_t(c.material.param_count()));
+  scripts.params(d->shade.material, 0, params.data());
+  return params;
+}
+
 std::vector<PolishedBall> polished_balls(const SceneData& scene, const Compiled& compiled,
                                          bool plain) {
   std::vector<PolishedBall> balls;
-  const Cluster cluster = sample_cluster(0.5);
   for (int i = 0; i < int(scene.objects.size()) && balls.size() < kMostBalls; ++i) {
+    const std::vector<float> params = ball_params(scene, compiled, i);
+    if (params.empty()) continue;
     const Object& o = scene.objects[i];
-    const Sphere* sphere = std::get_if<Sphere>(&o.shape);
-    const vm::Descriptor* d = scene.surfaces[o.surface].script;
-    if (!sphere || !d) continue;
-    const CompiledDescriptor& c = compiled.of(d);
-    const auto nodes = c.material.nodes();
-    if (!c.placeless_material || c.bumps || nodes.size() != 1) continue;
+    const materials::Layout& layout = compiled.of(scene.surfaces[o.surface].script).material;
+    if (layout.nodes().size() != 1) continue;
     using materials::Lobe;
     // Of what lets light through it is known of one model how rays go, whatever its facets.
-    if (c.material.transmits() && nodes[0].lobe != Lobe::Dielectric &&
-        nodes[0].lobe != Lobe::BeckmannDielectric)
+    if (layout.transmits() && layout.nodes()[0].lobe != Lobe::Dielectric &&
+        layout.nodes()[0].lobe != Lobe::BeckmannDielectric)
       continue;
     if (!plain && !alone(scene, compiled, i)) continue;
-    Scripts scripts(compiled);
-    ScriptPoint point;
-    point.object = &o;
-    point.cluster = &cluster;
-    const ScriptPoint* const lane = &point;
-    scripts.run(*d, EntryKind::Shade, {&lane, 1});
-    if (scripts.given_up(0)) continue;
-    std::vector<float> params(std::size_t(c.material.param_count()));
-    scripts.params(d->shade.material, 0, params.data());
-    if (BallOptics(c.material, params.data()).any())
-      balls.push_back({i, sphere->centre, sphere->radius, &c.material, plain});
+    const Sphere& sphere = std::get<Sphere>(o.shape);
+    if (BallOptics(layout, params.data()).any())
+      balls.push_back({i, sphere.centre, sphere.radius, &layout, plain});
   }
   return balls;
 }

@@ -103,6 +103,10 @@ Vec3d far_point(const PolishedBall& ball, Vec3d direction);
 double far_density_by(const PolishedBall& ball, const BallWay& way, Vec3d from, Vec3d direction,
                       double straight);
 
+/// The numbers of the material of object `i`, if it is a sphere of a script and they are the same
+/// all over; else none. Runs the script.
+std::vector<float> ball_params(const SceneData& scene, const Compiled& compiled, int i);
+
 /// Such balls of a scene, or the first few. `plain` as of World; where it is not, only those that
 /// hold a volume alone. Runs scripts.
 std::vector<PolishedBall> polished_balls(const SceneData& scene, const Compiled& compiled,

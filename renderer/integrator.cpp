@@ -22,10 +22,13 @@ constexpr int kDivisions = 3;
 /// that was drawn cost more than another direction.
 constexpr int kDirectionsOfFirst = 2;
 
+/// Branches of a path at one vertex: another direction, and one by images of lamps.
+constexpr std::size_t kMostBranches = kDirectionsOfFirst;
+
 /// Scattering events up to which each of few lights is drawn: more where the surface is not matte,
 /// and then in several directions, as those differ most where it mirrors a lamp about as wide as
-/// its lobe; fewer at the second event.
-constexpr int kEachLightOfEven = 1, kEachLightOfUneven = 2;
+/// its lobe; fewer at later events, and where a path came for one of the lamps.
+constexpr int kEachLightOfEven = 1, kEachLightOfUneven = 3;
 constexpr int kDrawsOfUneven = 8;
 
 /// Paths are given up below this mean contribution only: in glass of index n radiance is 1 / n^2 of
@@ -79,7 +82,7 @@ void Integrator::trace(std::span<const PixelSample> samples, std::span<FilmSampl
       start(samples[started], int(started), stream[started]);
     ask_balls(first);
     if (now_.empty()) break;
-    make_room(now_.size());  // each may divide
+    make_room(kMostBranches * now_.size());
     flights_.fly(now_, views_, kLeftFlying);
     next_.clear();
     shadows_.clear();
@@ -258,14 +261,22 @@ void Integrator::scatter(const Vertex& v, Scatterer s) {
   if (++p.depth > world_.max_depth) return;
   if (s.divides() && p.specular++ < kDivisions) return go_all_ways(v, s);
   int draws = 0;
+  const bool by_image = std::exchange(p.by_image, false);
+  std::optional<LampImages> images;
   if (s.can_connect()) {
     if (p.depth == 1 && !s.medium) s.directions = kDirectionsOfFirst;
     const bool even = s.even();
     if (p.depth <= (even ? kEachLightOfEven : kEachLightOfUneven) && world_.each_light)
-      draws = even ? 1 : kDrawsOfUneven / p.depth;
+      draws = even || by_image ? 1 : kDrawsOfUneven / p.depth;
+    if (p.depth == 1 && even && !world_.glossy_balls.empty()) {
+      images.emplace(world_.glossy_balls, world_.lights, v.point.surface.position,
+                     Vec3d(s.receives(v.point).normal));
+      if (images->chance() > 0) s.images = &*images;
+    }
     if (world_.lights.any()) connect(v, s, draws);
   }
   go_on(v, s, draws);
+  if (s.images) go_to_image(v, s, draws);
 }
 
 /// Sends a path on from where it is only mirrored and bent, both ways at once: a lamp may be seen
@@ -296,6 +307,18 @@ void Integrator::go_on(const Vertex& v, const Scatterer& s, int draws) {
     if (!survives(f->carried, p.specular > 0 ? kFirstRoulette : p.depth, roulette))
       next_.pop_back();
   }
+}
+
+/// Sends a branch of a path to where a ball shows a lamp, by the chance of that.
+void Integrator::go_to_image(const Vertex& v, const Scatterer& s, int draws) {
+  const Sampler& sampler = paths_[v.from->path].sampler;
+  if (sampler.pair(pair_of_bounce(0, kChoices))[0] >= s.images->chance()) return;
+  const auto [image_u, image_v] = sampler.pair(pair_of_light(0, kLampImage));
+  const Sampled sampled = s.evaluate(v.point, s.images->sample(image_u, image_v));
+  if (sampled.f.is_black()) return;
+  const int branch = divide(v.from->path);
+  paths_[branch].by_image = true;
+  if (Flight* f = leave(v, s, sampled, branch)) f->receives.draws = draws;
 }
 
 /// A path like `path` from here on, with numbers of its own, whose light is added to that of

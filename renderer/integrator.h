@@ -48,16 +48,17 @@ class Integrator {
   struct Path {
     Sampler sampler;
     Cluster cluster;
-    float first_part = 0;  ///< drawn with the place on the film
-    Spectrumf radiance;    ///< that the path has met
-    Spectrumf lit;         ///< that shadow rays have found
-    bool asks = false;     ///< a shadow ray is on its way: the next vertex waits for it, so that
-                           ///< sums are made in one order
-    float travelled = 0;   ///< m
-    int depth = 0;         ///< scattering events so far
-    int sample = 0;        ///< which of those to be traced
-    int parent = -1;       ///< path that this one branched off, or -1
-    int specular = 0;      ///< vertices so far that only mirror and bend
+    float first_part = 0;   ///< drawn with the place on the film
+    Spectrumf radiance;     ///< that the path has met
+    Spectrumf lit;          ///< that shadow rays have found
+    bool asks = false;      ///< a shadow ray is on its way: the next vertex waits for it, so that
+                            ///< sums are made in one order
+    float travelled = 0;    ///< m
+    int depth = 0;          ///< scattering events so far
+    int sample = 0;         ///< which of those to be traced
+    int parent = -1;        ///< path that this one branched off, or -1
+    int specular = 0;       ///< vertices so far that only mirror and bend
+    bool by_image = false;  ///< was sent to where a ball shows a lamp
     Detour detour;
     std::uint32_t choices = 0;  ///< counts its numbers for which rays by a ball are sought
   };
@@ -99,6 +100,7 @@ class Integrator {
   void scatter(const Vertex& v, Scatterer s);
   void go_all_ways(const Vertex& v, const Scatterer& s);
   void go_on(const Vertex& v, const Scatterer& s, int draws);
+  void go_to_image(const Vertex& v, const Scatterer& s, int draws);
   int divide(int path);
   Flight* leave(const Vertex& v, const Scatterer& s, const Sampled& sampled, int path);
   void follow(Flight& f, const Vertex& v, Vec3d direction) const;

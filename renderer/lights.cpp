@@ -167,7 +167,7 @@ Lights::Lights(const SceneData& scene, const std::vector<double>& radiance)
     if (!(radiance[i] > 0)) continue;
     const Shape& shape = scene.objects[i].shape;
     const Bounds box = bounds(shape);
-    Choice c{i, radiance[i], area(shape), box.radius(), box.centre(), {}, {}};
+    Choice c{{i, radiance[i], area(shape), box.radius(), box.centre(), {}}, {}};
     if (open(shape)) c.facing = sample_surface(shape, 0.5, 0.5).normal;
     if (const Mesh* m = std::get_if<Mesh>(&shape)) {
       c.triangles.push_back(0);
@@ -215,23 +215,33 @@ void Lights::add_environment() {
   if (!(mean > 0)) return;
   texels_ = TexelDensity(std::move(weight), w, h);
   environment_choice_ = int(choices_.size());
-  choices_.push_back({kEnvironment, mean, 0, 0, {}, {}, {}});
+  choices_.push_back({{kEnvironment, mean, 0, 0, {}, {}}, {}});
 }
 
-/// Radiance times the solid angle that the light's visible area fills from afar, at most the
-/// hemisphere's, and the receiver's cosine; a closed shape shows a quarter of its area, a flat one
-/// its front.
-double Lights::irradiance(const Choice& c, const Receiver& at) {
-  if (c.object == kEnvironment) return c.radiance * kPi<double>;
-  const Vec3d to = c.centre - at.position;
-  const double d2 = std::max(dot(to, to), 1e-12), nearness = 1 / std::sqrt(d2);
-  const bool flat = dot(c.facing, c.facing) > 0;
-  const double seen = flat ? std::max(0.0, -dot(to, c.facing) * nearness) : 0.25;
+/// A closed shape shows a quarter of its area, a flat one its front.
+double Lights::solid_angle(const Lamp& lamp, Vec3d from) {
+  const Vec3d to = lamp.centre - from;
+  const double d2 = std::max(dot(to, to), 1e-12);
+  const bool flat = dot(lamp.facing, lamp.facing) > 0;
+  const double seen = flat ? std::max(0.0, -dot(to, lamp.facing) / std::sqrt(d2)) : 0.25;
+  return std::min(kTwoPi, lamp.area * seen / d2);
+}
+
+/// Radiance times the solid angle and the receiver's cosine.
+double Lights::irradiance(const Lamp& lamp, const Receiver& at) {
+  if (lamp.object == kEnvironment) return lamp.radiance * kPi<double>;
+  const Vec3d to = lamp.centre - at.position;
+  const double nearness = 1 / std::sqrt(std::max(dot(to, to), 1e-12));
   const bool one_side = dot(at.normal, at.normal) > 0;
   const double cosine =
-      one_side ? above_horizon(dot(to, at.normal) * nearness, std::min(1.0, c.radius * nearness))
+      one_side ? above_horizon(dot(to, at.normal) * nearness, std::min(1.0, lamp.radius * nearness))
                : 1;
-  return c.radiance * std::min(kTwoPi, c.area * seen / d2) * cosine;
+  return lamp.radiance * solid_angle(lamp, at.position) * cosine;
+}
+
+double Lights::irradiance(const Receiver& at) const {
+  std::array<double, kLightsWeighed> weights;
+  return weigh(at, weights);
 }
 
 bool Lights::below_horizon(int choice, const Receiver& from) const {

@@ -20,6 +20,10 @@ inline constexpr int kEnvironment = -1;
 /// Up to so many lights are weighed one by one for each point; more are kept in a tree.
 inline constexpr int kLightsWeighed = 32;
 
+/// Up to so many are each drawn at the first vertices of a path, where no shadow ray waits for a
+/// script: they come back together, and sums are made in one order.
+inline constexpr int kLightsDrawnEach = 4;
+
 /// What light drawing knows of that which scatters it.
 struct Receives {
   Vec3f normal;       ///< unit, towards the only side that light matters from; zero if all do
@@ -77,6 +81,19 @@ class Lights {
 
   bool any() const { return !choices_.empty(); }
 
+  /// What is known of a light from afar.
+  struct Lamp {
+    int object;  ///< or kEnvironment
+    double radiance = 0, area = 0,
+           radius = 0;     ///< `radius` of a ball around `centre` that holds it
+    Vec3d centre, facing;  ///< `facing` is zero where light leaves to all sides
+  };
+  const Lamp& lamp(int choice) const { return choices_[choice]; }
+  /// About what a lamp's visible area fills from afar, at most the hemisphere's.
+  static double solid_angle(const Lamp& lamp, Vec3d from);
+  /// About what all lights send straight to a point. \pre they are at most kLightsWeighed
+  double irradiance(const Receiver& at) const;
+
   /// Draws a light by its estimated irradiance at `from`, then a direction. `u` chooses the light,
   /// and what is left of it the place on the light.
   LightSample sample(const Receiver& from, double u, double v) const;
@@ -103,15 +120,12 @@ class Lights {
   Spectrumf environment(Vec3d direction, const Cluster& cluster) const;
 
  private:
-  struct Choice {
-    int object;
-    double radiance, area, radius;  ///< `radius` of a ball around `centre` that holds the light
-    Vec3d centre, facing;           ///< `facing` is zero where light leaves to all sides
+  struct Choice : Lamp {
     std::vector<double> triangles;  ///< cumulative area of a mesh's triangles
   };
   void add_environment();
   SurfacePoint place(const Choice& c, double u, double v) const;
-  static double irradiance(const Choice& c, const Receiver& at);
+  static double irradiance(const Lamp& lamp, const Receiver& at);
   /// Estimates for each light, and their sum.
   double weigh(const Receiver& from, std::array<double, kLightsWeighed>& weights) const;
   double environment_share(Vec3d from) const;

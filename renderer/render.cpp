@@ -17,10 +17,6 @@ namespace {
 
 constexpr int kLargestSide = 32768;
 
-/// Up to so many lights each of them lights the first vertices of a path, where no shadow ray waits
-/// for a script: they come back together, and sums are made in one order.
-constexpr int kLightsOfFirst = 4;
-
 std::optional<Error> check(const RenderOptions& o) {
   if (o.width < 1 || o.width > kLargestSide || o.height < 1 || o.height > kLargestSide)
     return Error{"size", fmt::format("a picture of {} x {} pixels", o.width, o.height),
@@ -69,24 +65,26 @@ Result<Rendered> render(const vm::Program& program, const Scene& scene,
   }
   const Accel accel(data, collected);
   const Lights lights(data, findings->radiance);
-  World world{data,
-              compiled,
-              accel,
-              lights,
-              CameraRays(data.camera, options.width, options.height),
-              {},
-              {},
-              std::move(passes),
-              plain,
-              nested,
-              plain && lights.count() <= kLightsOfFirst,
-              options.seed,
-              options.max_depth,
-              std::move(findings->majorants),
-              options.estimator,
-              options.generator,
-              !nested && lights.any() ? polished_balls(data, compiled, plain)
-                                      : std::vector<PolishedBall>()};
+  const bool each_light = plain && lights.count() <= kLightsDrawnEach;
+  World world{
+      data,
+      compiled,
+      accel,
+      lights,
+      CameraRays(data.camera, options.width, options.height),
+      {},
+      {},
+      std::move(passes),
+      plain,
+      nested,
+      each_light,
+      options.seed,
+      options.max_depth,
+      std::move(findings->majorants),
+      options.estimator,
+      options.generator,
+      !nested && lights.any() ? polished_balls(data, compiled, plain) : std::vector<PolishedBall>(),
+      each_light && lights.any() ? glossy_balls(data, compiled) : std::vector<GlossyBall>()};
   for (int i = 0; i < int(data.objects.size()); ++i)
     world.sealed.push_back(sealed(data, compiled, i));
   for (int i = 0; i < int(data.objects.size()); ++i)

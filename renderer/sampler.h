@@ -80,6 +80,8 @@ constexpr int pair_of_bounce(int bounce, BouncePair p) {
 }
 
 /// Places on light `i` (from 1 to 3) where a vertex is lit by each; `kLight` has those on light 0.
+/// The first event has one more, of directions to where lamps are mirrored.
+inline constexpr int kLampImage = 4;
 constexpr int pair_of_light(int bounce, int i) { return -4 * bounce - i; }
 
 }  // namespace mms::renderer

@@ -27,6 +27,7 @@ struct Integrator::Scatterer {
   Vec3f view;                             ///< of a surface, in its frame
   materials::Bsdf<float>::Choice choice;  ///< likewise
   int directions = 1;                     ///< that are drawn: densities are of all of them
+  const LampImages* images = nullptr;     ///< where one more is drawn by them, by their chance
 
   /// Of a medium.
   Scatterer(const materials::Layout& l, const float* p) : layout(l), params(p), medium(true) {}
@@ -58,6 +59,12 @@ struct Integrator::Scatterer {
            (layout.has_smooth() && !materials::Bsdf<float>(layout, params).specular_only());
   }
 
+  /// Of all directions that a surface draws, from that of one.
+  Spectrumf density(const Spectrumf& pdf, Vec3d wi) const {
+    const Spectrumf drawn = pdf * float(directions);
+    return images ? drawn + Spectrumf(float(images->chance() * images->pdf(wi))) : drawn;
+  }
+
   Sampled evaluate(const ScriptPoint& p, Vec3d wi) const {
     if (medium) {
       const materials::Phase<float> phase(layout, params);
@@ -68,7 +75,7 @@ struct Integrator::Scatterer {
     const materials::Bsdf<float> bsdf(layout, params);
     const Vec3f local(frame.to_local(wi));
     const auto lobes = bsdf.evaluate(view, local, materials::Mode::Radiance, choice);
-    return {wi, lobes.f * std::abs(local.z), lobes.pdf * float(directions)};
+    return {wi, lobes.f * std::abs(local.z), density(lobes.pdf, wi)};
   }
 
   std::optional<Sampled> sample(const ScriptPoint& p, float u_lobe, float u, float v) const {
@@ -82,7 +89,7 @@ struct Integrator::Scatterer {
     if (!s) return {};
     const Vec3d wi = normalize(frame.to_world(Vec3d(s->wi)));
     if (!consistent(p.surface, frame, wi)) return {};
-    return Sampled{wi, s->f * std::abs(s->wi.z), s->pdf * float(directions), s->specular};
+    return Sampled{wi, s->f * std::abs(s->wi.z), density(s->pdf, wi), s->specular};
   }
 
   /// Whether light is only mirrored and bent here, each in one direction.

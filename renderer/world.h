@@ -6,7 +6,7 @@
 
 #include "renderer/accel.h"
 #include "renderer/camera.h"
-#include "renderer/caustics.h"
+#include "renderer/lamp_images.h"
 #include "renderer/lights.h"
 #include "renderer/majorants.h"
 #include "renderer/media.h"
@@ -34,7 +34,8 @@ struct World {
   std::vector<MajorantGrid> majorants;  ///< of each object's volume, if it varies: Findings
   Estimator estimator = Estimator::Clustered;
   Generator generator = Generator::Niederreiter;
-  std::vector<PolishedBall> balls;  ///< by way of which lights are reached
+  std::vector<PolishedBall> balls;       ///< by way of which lights are reached
+  std::vector<GlossyBall> glossy_balls;  ///< that show lamps to what is matte; where `each_light`
 
   /// The one of `balls` that an object is, or -1.
   int ball_of(int object) const {
