@@ -19,12 +19,20 @@ struct ConductorFresnel {
 
   /// At the cosine of incidence `c`.
   Spectrum<R> operator()(R c) const {
-    const R *n = p, *k = p + kWavelengths;
-    Spectrum<R> f;
+    const Spectrum<R> n = weight_at(p), k = weight_at(p + kWavelengths);
+    // Loops without branches, but for the last: wavelengths are computed side by side.
+    Spectrum<R> absorptance, direct, f;
+    for (int j = 0; j < kWavelengths; ++j)
+      absorptance[j] = fresnel_conductor_absorptance(c, n[j], k[j]);
+    bool little = false;
     for (int j = 0; j < kWavelengths; ++j) {
-      const bool repeated = j > 0 && n[j] == n[j - 1] && k[j] == k[j - 1];
-      f[j] = repeated ? f[j - 1] : fresnel_conductor(c, non_negative(n[j]), non_negative(k[j]));
+      f[j] = 1 - absorptance[j];
+      little |= reflects_little(absorptance[j], n[j], k[j]);
     }
+    if (!little) return f;
+    for (int j = 0; j < kWavelengths; ++j) direct[j] = fresnel_conductor_direct(c, n[j], k[j]);
+    for (int j = 0; j < kWavelengths; ++j)
+      if (reflects_little(absorptance[j], n[j], k[j])) f[j] = direct[j];
     return f;
   }
 };

@@ -51,6 +51,15 @@ inline R fresnel_dielectric(R c, R eta) {
   return fresnel_split(c, eta).reflected;
 }
 
+/// sqrt(x^2 + y^2) where squares may overflow or vanish; unlike std::hypot no call, so that loops
+/// over wavelengths are computed side by side.
+template <class R>
+inline R hypotenuse(R x, R y) {
+  const R a = std::abs(x), b = std::abs(y), large = a > b ? a : b, small = a > b ? b : a;
+  const R quotient = large > 0 ? small / large : R(0);
+  return large * std::sqrt(1 + quotient * quotient);
+}
+
 /// 1 - reflectance of a conductor of index n + i k (relative to the near side; n, k >= 0) at the
 /// cosine of incidence `c` in [0, 1]. Lengths are scaled by max(n, k, 1), so k may be 1e25 in
 /// float. With s^2 = 1 - c^2, a + i b = sqrt((n + i k)^2 - s^2), q = a^2 + b^2:
@@ -58,42 +67,54 @@ inline R fresnel_dielectric(R c, R eta) {
 /// A_p = 4 a c (q + s^2) / (c^2 (n^2 + k^2)^2 + 2 a c (q + s^2) + q).
 template <class R>
 inline R fresnel_conductor_absorptance(R c, R n, R k) {
-  const R scale = 1 / std::max({n, k, R(1)});
+  const R large = n > k ? n : k, scale = 1 / (large > 1 ? large : R(1));
   const R nn = n * scale, kk = k * scale, cs = c * scale;
   const R s2 = (1 - c) * (1 + c) * scale * scale;
   const R t = ((n - 1) * scale) * ((n + 1) * scale) - kk * kk + cs * cs;  // Re(eps) - s^2
-  const R q = std::hypot(t, 2 * nn * kk);
+  const R q = hypotenuse(t, 2 * nn * kk);
   const R big = std::sqrt((q + std::abs(t)) / 2);
-  const R a = t >= 0 ? big : big > 0 ? nn * kk / big : R(0);
-  const R ac = a * cs;
+  const R other = big > 0 ? nn * kk / big : R(0);
+  const R ac = (t >= 0 ? big : other) * cs;
   const R ds = q + cs * cs + 2 * ac;
   const R as = ds > 0 ? 4 * ac / ds : R(0);
   const R modulus = nn * nn + kk * kk, p = ac * (q + s2);
   const R dp = c * c * modulus * modulus + 2 * p + scale * scale * q;
   const R ap = dp > 0 ? 4 * p / dp : R(0);
-  return std::clamp((as + ap) / 2, R(0), R(1));
+  const R both = (as + ap) / 2;
+  return both < 1 ? both : R(1);
 }
 
-/// Reflectance of a conductor, as above; small reflectances (index near 1) are computed directly:
+/// Small reflectances of a conductor (index near 1; n and k at most 100), as above, directly:
 /// R_s = |eps - 1|^2 / D_s^2, R_p = |eps - 1|^2 |(eps + 1) c^2 - 1|^2 / D_p^2, eps = (n + i k)^2,
 /// with the denominators of A_s and A_p.
 template <class R>
-inline R fresnel_conductor(R c, R n, R k) {
-  const R absorptance = fresnel_conductor_absorptance(c, n, k);
-  if (absorptance < R(0.5) || std::max(n, k) > R(100)) return 1 - absorptance;
+inline R fresnel_conductor_direct(R c, R n, R k) {
   const R s2 = (1 - c) * (1 + c), t = (n - 1) * (n + 1) - k * k + c * c;
-  const R q = std::hypot(t, 2 * n * k);
+  const R q = hypotenuse(t, 2 * n * k);
   const R big = std::sqrt((q + std::abs(t)) / 2);
-  const R a = t >= 0 ? big : big > 0 ? n * k / big : R(0);
+  const R other = big > 0 ? n * k / big : R(0), a = t >= 0 ? big : other;
   const R ac = a * c, modulus = n * n + k * k;
   const R ds = q + c * c + 2 * ac;
   const R dp = c * c * modulus * modulus + 2 * ac * (q + s2) + q;
   const R re = (n - 1) * (n + 1) - k * k, im = 2 * n * k;
-  const R step = std::hypot(re, im);  // |eps - 1|
-  const R tilt = std::hypot((re + 2) * c * c - 1, im * c * c);
-  if (!(ds > 0) || !(dp > 0)) return 1 - absorptance;
-  const R rs = step / ds, rp = step * tilt / dp;
-  return std::clamp((rs * rs + rp * rp) / 2, R(0), R(1));
+  const R step = hypotenuse(re, im);  // |eps - 1|
+  const R tilt = hypotenuse((re + 2) * c * c - 1, im * c * c);
+  const R rs = ds > 0 ? step / ds : R(1), rp = dp > 0 ? step * tilt / dp : R(1);
+  const R both = (rs * rs + rp * rp) / 2;
+  return both < 1 ? both : R(1);
+}
+
+/// Whether that is better than 1 - absorptance.
+template <class R>
+inline bool reflects_little(R absorptance, R n, R k) {
+  return absorptance >= R(0.5) && std::max(n, k) <= R(100);
+}
+
+/// Reflectance of a conductor, as above.
+template <class R>
+inline R fresnel_conductor(R c, R n, R k) {
+  const R absorptance = fresnel_conductor_absorptance(c, n, k);
+  return reflects_little(absorptance, n, k) ? fresnel_conductor_direct(c, n, k) : 1 - absorptance;
 }
 
 /// Reflectance of a dielectric of relative index `eta` for diffuse (Lambertian) light,
