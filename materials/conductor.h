@@ -20,7 +20,14 @@ struct ConductorFresnel {
   /// At the cosine of incidence `c`.
   Spectrum<R> operator()(R c) const {
     const Spectrum<R> n = weight_at(p), k = weight_at(p + kWavelengths);
-    // Loops without branches, but for the last: wavelengths are computed side by side.
+    if (n == Spectrum<R>(n[0]) && k == Spectrum<R>(k[0]))
+      return Spectrum<R>(fresnel_conductor(c, n[0], k[0]));
+    return side_by_side(c, n, k);
+  }
+
+ private:
+  /// In loops without branches, but for the last.
+  static Spectrum<R> side_by_side(R c, const Spectrum<R>& n, const Spectrum<R>& k) {
     Spectrum<R> absorptance, direct, f;
     for (int j = 0; j < kWavelengths; ++j)
       absorptance[j] = fresnel_conductor_absorptance(c, n[j], k[j]);

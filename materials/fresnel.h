@@ -51,8 +51,8 @@ inline R fresnel_dielectric(R c, R eta) {
   return fresnel_split(c, eta).reflected;
 }
 
-/// sqrt(x^2 + y^2) where squares may overflow or vanish; unlike std::hypot no call, so that loops
-/// over wavelengths are computed side by side.
+/// sqrt(x^2 + y^2) where squares may overflow or vanish; unlike std::hypot no call. That, and what
+/// is always inlined below, lets loops over wavelengths be computed side by side.
 template <class R>
 inline R hypotenuse(R x, R y) {
   const R a = std::abs(x), b = std::abs(y), large = a > b ? a : b, small = a > b ? b : a;
@@ -66,7 +66,7 @@ inline R hypotenuse(R x, R y) {
 /// A_s = 4 a c / (q + c^2 + 2 a c),
 /// A_p = 4 a c (q + s^2) / (c^2 (n^2 + k^2)^2 + 2 a c (q + s^2) + q).
 template <class R>
-inline R fresnel_conductor_absorptance(R c, R n, R k) {
+[[gnu::always_inline]] inline R fresnel_conductor_absorptance(R c, R n, R k) {
   const R large = n > k ? n : k, scale = 1 / (large > 1 ? large : R(1));
   const R nn = n * scale, kk = k * scale, cs = c * scale;
   const R s2 = (1 - c) * (1 + c) * scale * scale;
@@ -88,7 +88,7 @@ inline R fresnel_conductor_absorptance(R c, R n, R k) {
 /// R_s = |eps - 1|^2 / D_s^2, R_p = |eps - 1|^2 |(eps + 1) c^2 - 1|^2 / D_p^2, eps = (n + i k)^2,
 /// with the denominators of A_s and A_p.
 template <class R>
-inline R fresnel_conductor_direct(R c, R n, R k) {
+[[gnu::always_inline]] inline R fresnel_conductor_direct(R c, R n, R k) {
   const R s2 = (1 - c) * (1 + c), t = (n - 1) * (n + 1) - k * k + c * c;
   const R q = hypotenuse(t, 2 * n * k);
   const R big = std::sqrt((q + std::abs(t)) / 2);
