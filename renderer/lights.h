@@ -83,10 +83,9 @@ class Lights {
 
   /// What is known of a light from afar.
   struct Lamp {
-    int object;  ///< or kEnvironment
-    double radiance = 0, area = 0,
-           radius = 0;     ///< `radius` of a ball around `centre` that holds it
-    Vec3d centre, facing;  ///< `facing` is zero where light leaves to all sides
+    int object;
+    double radiance, area, radius;  ///< `radius` of a ball around `centre` that holds the light
+    Vec3d centre, facing;           ///< `facing` is zero where light leaves to all sides
   };
   const Lamp& lamp(int choice) const { return choices_[choice]; }
   /// About what a lamp's visible area fills from afar, at most the hemisphere's.
