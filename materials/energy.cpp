@@ -24,11 +24,13 @@ const InterfaceTables kGgxInterface{{kGgxDense, kGgxRare},
                                     {kGgxDenseMean, kGgxRareMean},
                                     {kGgxDenseStretched, kGgxRareStretched},
                                     {kGgxDenseStretchedMean, kGgxRareStretchedMean},
-                                    kGgxLeastMean};
+                                    kGgxLeastMean,
+                                    kGgxKink};
 const InterfaceTables kBeckmannInterface{{kBeckmannDense, kBeckmannRare},
                                          {kBeckmannDenseMean, kBeckmannRareMean},
                                          {kBeckmannDenseStretched, kBeckmannRareStretched},
                                          {kBeckmannDenseStretchedMean, kBeckmannRareStretchedMean},
-                                         kBeckmannLeastMean};
+                                         kBeckmannLeastMean,
+                                         kBeckmannKink};
 
 }  // namespace mms::materials

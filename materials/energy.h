@@ -33,13 +33,16 @@ extern const FacetTables kGgxTables, kBeckmannTables;
 struct InterfaceTables {
   const float* loss[2];            ///< its root, [alpha][index][direction], isotropic
   const float* mean[2];            ///< [alpha][index], isotropic, over `mean_unit`
-  const float* stretched[2];       ///< [alpha][aspect][azimuth][index][direction]
+  const float* stretched[2];       ///< [alpha][index][direction][term of ShapeBasis]
   const float* stretched_mean[2];  ///< [alpha][aspect][index], over the mean of round facets
   float least_mean;                ///< over `mean_unit`: less than any mean is in truth
+  float kink;                      ///< see axes::bent_direction
 };
 extern const InterfaceTables kGgxInterface, kBeckmannInterface;
 /// `least_mean` of both; Beckmann's means have no logarithm, which `mean_unit` has.
 inline constexpr float kGgxLeastMean = 0.1f, kBeckmannLeastMean = 0.003f;
+/// `kink` of both.
+inline constexpr float kGgxKink = 0.3f, kBeckmannKink = 0;
 
 /// Mean Fresnel reflectance over the directions that a coat's lobe scatters to, minus that at the
 /// direction it scatters from, for indices above 1: [gloss][index][direction] of `glossy`,
@@ -56,15 +59,16 @@ inline constexpr int kAlpha = 65, kDirection = 65, kMean = 193;
 inline constexpr int kStretchedAlpha = 23, kAspect = 10, kAzimuth = 13, kStretchedDirection = 41;
 inline constexpr int kStretchedMean = 65, kMeanAspect = 12;
 /// [1] where the index falls on the far side: the loss has a ridge along the critical angle there.
-inline constexpr int kInterfaceAlpha[] = {19, 25}, kIndex[] = {29, 37};
-inline constexpr int kInterfaceDirection[] = {61, 75};
+inline constexpr int kInterfaceAlpha[] = {23, 35}, kIndex[] = {33, 43};
+inline constexpr int kInterfaceDirection[] = {55, 75};
 inline constexpr int kInterfaceMean = 65;
 /// Bent: of stretched facets of an interface.
-inline constexpr int kBentAlpha[] = {6, 7}, kBentAspect[] = {5, 6}, kBentAzimuth[] = {11, 14};
-inline constexpr int kBentIndex[] = {8, 9}, kBentDirection[] = {21, 18};
-inline constexpr int kBentMeanAlpha = 17, kBentMeanAspect = 6, kBentMeanIndex = 12;
-/// Roots of the least alpha of stretched facets; below, all is as there, but for its scale.
+inline constexpr int kBentAlpha[] = {10, 12}, kBentIndex[] = {12, 16}, kBentDirection[] = {26, 31};
+inline constexpr int kBentMeanAlpha = 17, kBentMeanAspect = 8, kBentMeanIndex = 16;
+/// Roots of the least alpha; below, all is as there, but for its scale. The ends of the axis of
+/// indices: 1.0002 and 4, or their inverses.
 inline constexpr double kLeastBentRoot = 0.1, kLeastBentFourthRoot = 0.15;
+inline constexpr double kLeastBentIndex = 0.1, kMostBentIndex = 0.8801117, kBentIndexPower = 0.75;
 inline constexpr int kGloss = 33, kCoatAlpha = 25, kCoatIndex = 37, kCoatDirection = 49;
 inline constexpr double kLargestGloss = 5e4;
 
@@ -117,7 +121,7 @@ inline R aspect(R quotient) {
   return std::log(quotient) / std::numbers::ln10_v<R>;
 }
 
-/// Of stretched facets of an interface: finer where they are nearly round.
+/// Of the mean of stretched facets of an interface: finer where they are nearly round.
 template <class R>
 inline R bent_aspect(R quotient) {
   return std::pow(aspect(quotient), R(0.7));
@@ -186,6 +190,19 @@ inline R interface_direction(R z, R s, R alpha, R eta) {
   return eta < 1 ? rare_direction(z, s, alpha, eta) : dense_direction(z, s, width(alpha));
 }
 
+/// The same of stretched facets. Steep ones of GGX are so many that their loss has a kink where
+/// light along the direction is just not reflected totally by the steepest of all, at the cosine
+/// `eta`: `kink` parts are crowded about it as a cubic root, over which a kink is smooth.
+template <class R>
+inline R bent_direction(R z, R s, R alpha, R eta, R kink) {
+  if (!(eta < 1)) return towards_grazing(dense_direction(z, s, width(alpha)));
+  const R x = rare_direction(z, s, alpha, eta);
+  if (kink == 0) return x;
+  const R at = angle(eta, std::sqrt((1 - eta) * (1 + eta))), from = std::cbrt(at);
+  const R place = (std::cbrt(angle(z, s) - at) + from) / (std::cbrt(1 - at) + from);
+  return (x + kink * place) / (1 + kink);
+}
+
 /// Of the relative index `eta`: 0 at 1, towards 1 for 0 and infinity. Next to 1, Fresnel's factor
 /// changes over cosines of the size of sqrt |eta - 1|, which the fourth root keeps apart.
 template <class R>
@@ -193,10 +210,13 @@ inline R index(R eta) {
   return std::sqrt(std::sqrt(std::abs(eta - 1) / (eta + 1)));
 }
 
-/// The same of stretched facets, where indices above 4 and below 1/4 count as these.
+/// The same of stretched facets, where indices above 4 and below 1/4 count as these, and those next
+/// to 1, which all but the widest facets take for 1, as nearly 1. Finer next to 1 where the index
+/// rises.
 template <class R>
 inline R bent_index(R eta) {
-  return index(eta) / std::sqrt(std::sqrt(R(0.6)));
+  const R x = (index(eta) - R(kLeastBentIndex)) / R(kMostBentIndex - kLeastBentIndex);
+  return eta < 1 || !(x > 0) ? x : std::pow(x, R(kBentIndexPower));
 }
 
 template <class R>
@@ -264,33 +284,69 @@ struct FacetLoss {
   static R clamp01(R x) { return x > 0 ? std::min(x, R(1)) : R(0); }
 };
 
+/// How stretched facets look along a direction: a point of the unit disc, whose centre is round
+/// facets and whose rim those ten times as wide along one axis as along the other. Half the angle
+/// there is the direction's azimuth from the narrower axis.
+template <class R>
+struct Shape {
+  R u = 0, v = 0;
+
+  /// `x` along the wider axis.
+  static Shape of(R wide, R narrow, R x, R y) {
+    const R radius = (wide - narrow) / (wide + narrow) * R(11.0 / 9), length2 = x * x + y * y;
+    if (!(length2 > 0)) return {-radius, 0};
+    return {radius * ((y - x) * (y + x) / length2), radius * (2 * std::abs(x * y) / length2)};
+  }
+};
+
+/// Polynomials over the disc of shapes, even in v and 0 at its centre: products of Chebyshev's, of
+/// the degrees i in u and 2 j in v, i + 2 j <= `degree`.
+template <class R>
+struct ShapeBasis {
+  static constexpr int kDegree[] = {12, 14};  ///< [1] where the index falls on the far side
+  static constexpr int terms(int degree) { return (degree / 2 + 1) * (degree / 2 + 1) - 1; }
+  static constexpr int kMost = terms(kDegree[1]);
+
+  R value[kMost];
+
+  ShapeBasis(const Shape<R>& shape, int degree) {
+    R along[kDegree[1] + 1];
+    along[0] = 1, along[1] = shape.u;
+    for (int i = 2; i <= degree; ++i) along[i] = 2 * shape.u * along[i - 1] - along[i - 2];
+    // Of even degree: Chebyshev's of half of it at 2 v^2 - 1.
+    const R w = 2 * shape.v * shape.v - 1;
+    R across = 1, before = w;
+    int at = 0;
+    for (int j = 0; 2 * j <= degree; ++j) {
+      for (int i = j == 0; i + 2 * j <= degree; ++i) {
+        constexpr int centre[] = {1, 0, -1, 0};
+        value[at++] = along[i] * across - R(centre[i % 4] * (j % 2 ? -1 : 1));
+      }
+      const R next = 2 * w * across - before;
+      before = across, across = next;
+    }
+  }
+};
+
 /// Stretched facets of an interface, as a table lays them out: x is along the wider axis.
 template <class R>
 struct StretchedInterface {
   R wide, narrow, x, y, z;
 
   R root() const { return std::sqrt(wide * narrow); }
-  R tangent() const { return std::sqrt(wide * wide * x * x + narrow * narrow * y * y); }
-  /// The width of round facets that are as wide along the direction, where it is grazing, and as
-  /// wide on the whole where it is the normal; at most 1.
+  /// The width of round facets that are as wide along the direction; at most 1.
   R like() const {
-    const R t = tangent();
-    return limited(std::sqrt(t * t + wide * narrow * z * z));
+    const R s2 = x * x + y * y, t2 = wide * wide * x * x + narrow * narrow * y * y;
+    const R along = s2 > 0 ? std::sqrt(t2 / s2) : wide;
+    return along / (1 + (along - root()));
   }
   /// What differences of losses are measured in: they fall with the area of a slope where facets
-  /// are nearly flat. More there, so that the spline does not swing next to grazing.
+  /// are nearly flat, and so must what the table is off by, lest it be all of the mean.
   R scale() const {
-    const R t = tangent(), t2 = t * t, z2 = z * z;
-    return (t2 + 16 * wide * narrow * z2) / (t2 + z2);
+    const R area = wide * narrow;
+    return area / (area * (x * x + y * y) + z * z);
   }
-  R azimuth() const { return axes::azimuth(std::sqrt(wide) * x, std::sqrt(narrow) * y); }
-  R direction(R eta) const {
-    const R s = std::sqrt(x * x + y * y);
-    return axes::interface_direction(z, s, limited(s > 0 ? tangent() / s : root()), eta);
-  }
-
- private:
-  R limited(R width) const { return width / (1 + (width - root())); }
+  Shape<R> shape() const { return Shape<R>::of(wide, narrow, x, y); }
 };
 
 /// The loss of a rough dielectric of relative index `eta` (far side over near side). `ax`, `ay` >
@@ -307,8 +363,8 @@ struct InterfaceLoss {
     const R least = R(1e-4) * ax * ay;
     if (ax == ay) return limited(round(ax, z, s), least);
     const StretchedInterface<R> f = stretched({w.x, w.y, z});
-    const R like = round(f.like(), z, s);  // in truth no less than a twelfth of it
-    return limited(like + f.scale() * difference(f), std::max(like / 20, least));
+    const R like = f.like();
+    return limited(round(like, z, s) + f.scale() * difference(f, like, s), least);
   }
 
   /// m in (0, 1). Its table rings next to alpha = 0 for indices below 1/4: see `least_mean`.
@@ -344,18 +400,30 @@ struct InterfaceLoss {
   static R limited(R l, R least) { return l > least ? std::min(l, R(1)) : least; }
   int falls() const { return eta < 1; }
 
-  /// Of l from that of round facets, over its scale.
-  R difference(const StretchedInterface<R>& f) const {
+  /// Of l from that of round facets of width `like`, over its scale.
+  R difference(const StretchedInterface<R>& f, R like, R s) const {
     using namespace axes;
-    const int k = falls();
+    using Basis = ShapeBasis<R>;
+    const int k = falls(), terms = Basis::terms(Basis::kDegree[k]);
+    const Basis basis(f.shape(), Basis::kDegree[k]);
     const auto a = Stencil<R>::at(bent_alpha(f.root()), kBentAlpha[k]);
-    const auto q = Stencil<R>::at(bent_aspect(f.wide / f.narrow), kBentAspect[k]);
-    const auto c = Stencil<R>::at(f.azimuth(), kBentAzimuth[k]);
     const auto n = Stencil<R>::at(bent_index(eta), kBentIndex[k]);
-    const auto d = Stencil<R>::at(f.direction(eta), kBentDirection[k]);
-    const int n3 = coefficients(kBentDirection[k]), n2 = n3 * coefficients(kBentIndex[k]),
-              n1 = n2 * coefficients(kBentAzimuth[k]), n0 = n1 * coefficients(kBentAspect[k]);
-    return interpolate(tables->stretched[k], a, n0, q, n1, c, n2, n, n3, d);
+    const auto d =
+        Stencil<R>::at(bent_direction(f.z, s, like, eta, R(tables->kink)), kBentDirection[k]);
+    const int n2 = terms, n1 = n2 * coefficients(kBentDirection[k]),
+              n0 = n1 * coefficients(kBentIndex[k]);
+    R sums[Basis::kMost] = {};
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j)
+        for (int l = 0; l < 4; ++l) {
+          const float* p =
+              tables->stretched[k] + (a.first + i) * n0 + (n.first + j) * n1 + (d.first + l) * n2;
+          const R weight = a.weight[i] * n.weight[j] * d.weight[l];
+          for (int t = 0; t < terms; ++t) sums[t] += weight * R(p[t]);
+        }
+    R sum = 0;
+    for (int t = 0; t < terms; ++t) sum += sums[t] * basis.value[t];
+    return sum;
   }
 
   R mean_ratio(R alpha) const {

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/energy.h and writes them as C++ to the named file: run by the
-// build, on two threads or more, for about two minutes of one core.
+// build, on two threads or more, for about six minutes of one core.
 #include <cstdio>
 #include <string>
 
-#include "materials/fresnel.h"
 #include "materials/glossy.h"
 #include "materials/tables/grid.h"
+#include "materials/tables/slopes.h"
 #include "materials/tables/visible.h"
 
 namespace mms::materials::tables {
 namespace {
 
 /// Writes the table and returns it.
-std::vector<float> write(std::FILE* to, const std::string& name, const Grid& grid, int digits = 8) {
+std::vector<float> write(std::FILE* to, const std::string& name, const Grid& grid) {
   const std::vector<double> spline = grid.spline();
   const std::vector<float> table(spline.begin(), spline.end());
-  write_numbers(to, name, table, digits);
+  write_numbers(to, name, table);
   return table;
 }
 
@@ -89,36 +89,6 @@ double mean_loss(const Loss& loss, double alpha2, int azimuths, double ridge = 0
 /// Where the losses of an interface have their ridge: the cosine of the critical angle, or 0.
 double ridge_of(double eta) { return std::sqrt(std::max(0.0, (1 - eta) * (1 + eta))); }
 
-/// The loss at one facet's interface of relative index `eta`: what it reflects or refracts and
-/// other facets then take, or what leaves to the wrong side.
-template <int Points, class Facets>
-double interface_loss(const Facets& facets, double eta, Vec3d wo, int angles) {
-  const double z = wo.z, so = facets.shadow(wo);
-  const auto hidden = [&](Vec3d wi) {  // G2 / G1 away from 1
-    const double s = z * facets.shadow(wi), c = std::abs(wi.z);
-    return s / (z * c + so * c + s);
-  };
-  const auto refraction = [&](Vec3d h, double c) {
-    const double g2 = refraction_g2(c, eta);
-    return (h * ((1 - eta) * (1 + eta) / (c + std::sqrt(std::max(0.0, g2)))) - wo);
-  };
-  return visible_mean<Points>(
-      facets, wo,
-      [&](Vec3d h) {
-        const double c = std::clamp(dot(wo, h), 0.0, 1.0);
-        const FresnelSplit<double> f = fresnel_split(c, eta);
-        const Vec3d r = h * (2 * c) - wo, t = normalize(refraction(h, c));
-        return f.reflected * (r.z > 0 ? hidden(r) : 1) + f.transmitted * (t.z < 0 ? hidden(t) : 1);
-      },
-      [&](Vec3d h) {
-        const double c = std::clamp(dot(wo, h), 0.0, 1.0), g2 = refraction_g2(c, eta);
-        // refraction(h, c).z times c + g: bounded where facets only just face wo.
-        const double down = h.z * (1 - eta) * (1 + eta) - z * (c + std::sqrt(std::max(0.0, g2)));
-        return std::array{2 * c * h.z - z, down, g2};
-      },
-      angles);
-}
-
 /// The relative index of a place on its axis; `rising`: above 1.
 double index_at(double place, bool rising) {
   const double x = std::clamp(place * place * place * place, 1e-7, 1 - 1e-4);
@@ -130,20 +100,21 @@ double from_log(double x) { return std::pow(axes::kMinMeanAlpha, 1 - x); }
 
 /// Tables of round facets: the loss and its mean.
 struct RoundInterface {
-  float least_mean = 0;
+  float least_mean = 0, kink = 0;
   std::vector<float> loss, mean;
   InterfaceTables tables() const {
-    return {{loss.data(), loss.data()}, {mean.data(), mean.data()}, {}, {}, least_mean};
+    return {{loss.data(), loss.data()}, {mean.data(), mean.data()}, {}, {}, least_mean, kink};
   }
 };
 
 /// The tables hold the root of the loss: it falls less steeply, and float keeps more of its digits.
-template <template <class> class Distribution, int Points>
+template <template <class> class Distribution>
 RoundInterface write_round_interface(std::FILE* to, const std::string& name, bool rising,
-                                     float least_mean) {
+                                     float least_mean, float kink) {
   using namespace axes;
   RoundInterface round;
   round.least_mean = least_mean;
+  round.kink = kink;
   round.loss = write(
       to, name,
       Grid({kInterfaceAlpha[!rising], kIndex[!rising], kInterfaceDirection[!rising]},
@@ -153,8 +124,8 @@ RoundInterface write_round_interface(std::FILE* to, const std::string& name, boo
                return interface_direction(z, s, a, eta);
              });
              const double z = std::max(c, kLeast * a);
-             return std::sqrt(interface_loss<Points>(Distribution<double>{{a, a}}, eta,
-                                                     {std::sqrt(1 - z * z), 0, z}, kAngles));
+             return std::sqrt(interface_loss<12>(Distribution<double>{{a, a}}, eta,
+                                                 {std::sqrt(1 - z * z), 0, z}));
            }));
   const InterfaceTables tables = round.tables();
   round.mean =
@@ -173,43 +144,108 @@ std::array<double, 2> bent_widths(double root, double place) {
 
 /// The relative index of a place on the axis of stretched facets.
 double bent_index_at(double place, bool rising) {
-  return index_at(place * std::pow(0.6, 0.25), rising);
+  using namespace axes;
+  if (rising) place = std::pow(place, 1 / kBentIndexPower);
+  return index_at(kLeastBentIndex + (kMostBentIndex - kLeastBentIndex) * place, rising);
 }
 
-/// What stretched facets lose other than the round ones of the tables. Coarse: 48 angles
-/// of 8 points find a loss within 1e-3.
+/// Shapes that stretched facets are computed at, on rings of the disc, and what makes polynomials
+/// of the values there: least squares, which count less the more facets are stretched.
+class ShapeFit {
+ public:
+  explicit ShapeFit(int degree) : terms_(ShapeBasis<double>::terms(degree)) {
+    const int rings = degree / 2 + 2;
+    std::vector<double> weights;
+    for (int ring = 1; ring <= rings; ++ring) {
+      const int n = std::min(2 * ring + 1, degree + 1);
+      const double radius = std::sin(kPi<double> / 2 * ring / rings);
+      for (int i = 0; i < n; ++i) {
+        const double angle = kPi<double> * i / (n - 1);
+        shapes_.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+        weights.push_back(radius > 0.85 ? 0.1 : 1);  // anisotropy 0.9 is at 0.83
+      }
+    }
+    // The normal equations, with a column for each shape. A little is added to their diagonal:
+    // there are polynomials that all but vanish over the disc, of which any multiple would do.
+    const int columns = terms_ + count();
+    std::vector<std::vector<double>> a(terms_, std::vector<double>(columns));
+    for (int s = 0; s < count(); ++s) {
+      const ShapeBasis<double> basis(shapes_[s], degree);
+      for (int i = 0; i < terms_; ++i) {
+        a[i][terms_ + s] = weights[s] * basis.value[i];
+        for (int j = 0; j < terms_; ++j) a[i][j] += weights[s] * basis.value[i] * basis.value[j];
+      }
+    }
+    for (int i = 0; i < terms_; ++i) a[i][i] += 1e-5;
+    solve(a);
+    for (auto& row : a) inverse_.emplace_back(row.begin() + terms_, row.end());
+  }
+
+  int count() const { return int(shapes_.size()); }
+  int terms() const { return terms_; }
+
+  /// Facets that look so along the tangent (x, y), with z = 0.
+  StretchedInterface<double> facets(int i, double root) const {
+    const auto [u, v] = shapes_[i];
+    const double radius = std::hypot(u, v) * 9 / 11, aspect = (1 + radius) / (1 - radius);
+    const double turn = std::atan2(v, u) / 2;  // from the narrower axis
+    return {root * std::sqrt(aspect), root / std::sqrt(aspect), std::sin(turn), std::cos(turn), 0};
+  }
+
+  /// The coefficient of a term, of values at all shapes.
+  double term(int i, const double* values) const {
+    double sum = 0;
+    for (int s = 0; s < count(); ++s) sum += inverse_[i][s] * values[s];
+    return sum;
+  }
+
+ private:
+  int terms_;
+  std::vector<Shape<double>> shapes_;
+  std::vector<std::vector<double>> inverse_;  // [term][shape]
+};
+
+/// What stretched facets lose other than the round ones of the tables, over its scale.
+template <template <class> class Distribution>
+std::vector<float> stretched_difference(bool rising, const InterfaceTables& round) {
+  using namespace axes;
+  const int k = !rising, alphas = kBentAlpha[k], indices = kBentIndex[k],
+            directions = kBentDirection[k];
+  const ShapeFit shapes(ShapeBasis<double>::kDegree[k]);
+  const int count = shapes.count(), terms = shapes.terms();
+  const Grid values({alphas, indices, directions, count}, [&](const double* x) {
+    const double root = std::pow(kLeastBentRoot + (1 - kLeastBentRoot) * x[0], 2);
+    const double eta = bent_index_at(x[1], rising);
+    auto seen = shapes.facets(int(std::lround(x[3] * (count - 1))), root);
+    const double like = seen.like();
+    const double c = cosine(std::min(x[2], 1 - kLeast), [&](double z, double s) {
+      return bent_direction(z, s, like, eta, double(round.kink));
+    });
+    const double z = std::max(c, kLeast * root), s = std::sqrt(1 - z * z);
+    seen.x *= s, seen.y *= s, seen.z = z;
+    const InterfaceLoss<double> loss{&round, seen.wide, seen.narrow, eta};
+    return (interface_loss<10>(Distribution<double>{{seen.wide, seen.narrow}}, eta,
+                               {seen.x, seen.y, z}) -
+            loss.round(like, z, s)) /
+           seen.scale();
+  });
+  Grid fitted({alphas, indices, directions, terms}, [](const double*) { return 0.0; });
+  for (int i = 0; i < alphas * indices * directions; ++i)
+    for (int j = 0; j < terms; ++j)
+      fitted.values[i * terms + j] = shapes.term(j, &values.values[i * count]);
+  const std::vector<double> spline = fitted.spline(1);
+  return {spline.begin(), spline.end()};
+}
+
+/// That, and its mean.
 template <template <class> class Distribution>
 void write_stretched_interface(std::FILE* to, const std::string& name, bool rising,
                                const RoundInterface& round) {
   using namespace axes;
-  const int k = !rising;
   InterfaceTables tables = round.tables();
-  const auto difference = write(
-      to, name + "Stretched",
-      Grid({kBentAlpha[k], kBentAspect[k], kBentAzimuth[k], kBentIndex[k], kBentDirection[k]},
-           [&](const double* x) {
-             if (x[1] == 0) return 0.0;
-             const double alpha = std::pow(kLeastBentRoot + (1 - kLeastBentRoot) * x[0], 2);
-             const auto widths = bent_widths(alpha, x[1]);
-             const double wide = widths[0], narrow = widths[1];
-             const double eta = bent_index_at(x[3], rising), turn = x[2] * kPi<double> / 2;
-             const Vec3d t = normalize(
-                 Vec3d{std::sin(turn) / std::sqrt(wide), std::cos(turn) / std::sqrt(narrow), 0});
-             const auto at = [&](double z, double s) {
-               return StretchedInterface<double>{wide, narrow, t.x * s, t.y * s, z};
-             };
-             const double c = cosine(std::min(x[4], 1 - kLeast),
-                                     [&](double z, double s) { return at(z, s).direction(eta); });
-             const double z = std::max(c, kLeast * alpha), s = std::sqrt(1 - z * z);
-             const auto f = at(z, s);
-             const InterfaceLoss<double> loss{&tables, wide, narrow, eta};
-             return (interface_loss<8>(Distribution<double>{{wide, narrow}}, eta, {f.x, f.y, z},
-                                       48) -
-                     loss.round(f.like(), z, s)) /
-                    f.scale();
-           }),
-      3);
-  tables.stretched[k] = difference.data();
+  const auto difference = stretched_difference<Distribution>(rising, tables);
+  write_numbers(to, name + "Stretched", difference, 4);
+  tables.stretched[!rising] = difference.data();
   write(to, name + "StretchedMean",
         Grid({kBentMeanAlpha, kBentMeanAspect, kBentMeanIndex}, [&](const double* x) {
           const double root = kLeastBentFourthRoot + (1 - kLeastBentFourthRoot) * x[0];
@@ -223,13 +259,12 @@ void write_stretched_interface(std::FILE* to, const std::string& name, bool risi
         }));
 }
 
-template <template <class> class Distribution, int Points>
-void write_interface(std::FILE* to, const std::string& name, float least_mean) {
+template <template <class> class Distribution>
+void write_interface(std::FILE* to, const std::string& name, float least_mean, float kink) {
   for (const bool rising : {true, false}) {
     const std::string side = name + (rising ? "Dense" : "Rare");
     write_stretched_interface<Distribution>(
-        to, side, rising,
-        write_round_interface<Distribution, Points>(to, side, rising, least_mean));
+        to, side, rising, write_round_interface<Distribution>(to, side, rising, least_mean, kink));
   }
 }
 
@@ -337,7 +372,7 @@ int main(int argc, char** argv) {
     tables::write_facet_coat(to, tables::write_facets<Ggx>(to, "kGgx"));
     tables::write_facets<Beckmann>(to, "kBeckmann");
     tables::write_coat(to);
-    tables::write_interface<Ggx, 16>(to, "kGgx", kGgxLeastMean);
-    tables::write_interface<Beckmann, 8>(to, "kBeckmann", kBeckmannLeastMean);
+    tables::write_interface<Ggx>(to, "kGgx", kGgxLeastMean, kGgxKink);
+    tables::write_interface<Beckmann>(to, "kBeckmann", kBeckmannLeastMean, kBeckmannKink);
   });
 }

@@ -29,6 +29,24 @@ inline void parallel(int n, const std::function<void(int)>& body) {
   for (std::thread& t : threads) t.join();
 }
 
+/// Gauss and Jordan's elimination: the columns behind the square matrix become the solutions.
+inline void solve(std::vector<std::vector<double>>& a) {
+  const int size = int(a.size()), columns = int(a[0].size());
+  for (int p = 0; p < size; ++p) {
+    int best = p;
+    for (int i = p; i < size; ++i)
+      if (std::abs(a[i][p]) > std::abs(a[best][p])) best = i;
+    std::swap(a[p], a[best]);
+    const double pivot = a[p][p];
+    for (int j = p; j < columns; ++j) a[p][j] /= pivot;
+    for (int i = 0; i < size; ++i) {
+      const double factor = a[i][p];
+      if (i == p || factor == 0) continue;
+      for (int j = p; j < columns; ++j) a[i][j] -= factor * a[p][j];
+    }
+  }
+}
+
 /// Coefficients of the spline through `values` (at least five) at uniform nodes; the third
 /// derivative is continuous at the second and the last but one ("not a knot").
 inline std::vector<double> fit(const std::vector<double>& values) {
@@ -41,19 +59,9 @@ inline std::vector<double> fit(const std::vector<double>& values) {
   }
   constexpr double fourth[] = {1, -4, 6, -4, 1};
   for (int j = 0; j < 5; ++j) a[n][j] = a[n + 1][size - 5 + j] = fourth[j];
-  for (int p = 0; p < size; ++p) {
-    int best = p;
-    for (int i = p; i < size; ++i)
-      if (std::abs(a[i][p]) > std::abs(a[best][p])) best = i;
-    std::swap(a[p], a[best]);
-    for (int i = 0; i < size; ++i) {
-      if (i == p || a[i][p] == 0) continue;
-      const double factor = a[i][p] / a[p][p];
-      for (int j = p; j <= size; ++j) a[i][j] -= factor * a[p][j];
-    }
-  }
+  solve(a);
   std::vector<double> c(size);
-  for (int i = 0; i < size; ++i) c[i] = a[i][size] / a[i][i];
+  for (int i = 0; i < size; ++i) c[i] = a[i][size];
   return c;
 }
 
@@ -79,11 +87,15 @@ struct Grid {
     });
   }
 
-  /// Coefficients along every axis, in the same order.
-  std::vector<double> spline() const {
+  /// Coefficients along every axis, but for the last `kept`, in the same order.
+  std::vector<double> spline(int kept = 0) const {
     std::vector<double> data = values;
     int inner = 1;
     for (int k = int(nodes.size()) - 1; k >= 0; --k) {
+      if (kept-- > 0) {
+        inner *= nodes[k];
+        continue;
+      }
       const int n = nodes[k], m = coefficients(n), outer = int(data.size()) / (n * inner);
       std::vector<double> out(std::size_t(outer) * m * inner);
       for (int o = 0; o < outer; ++o)

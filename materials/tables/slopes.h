@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// What one bounce off an interface of facets loses, by quadrature over their slopes: along the
+/// direction, and for each of these across it. Nothing here is used when rendering.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/quadrature.h"
+#include "materials/facets.h"
+#include "materials/fresnel.h"
+
+namespace mms::materials::tables {
+
+/// How slopes t of a distribution of width 1 are laid out over m in (-1, 1), so that their density
+/// times the slope's derivative is nearly flat; `density` is of t^2, `spread` how much wider the
+/// slopes across are at a slope t along.
+struct GgxSlopes {
+  static double place(double t) { return std::atan(t) * (2 / kPi<double>); }
+  static double slope(double m) { return std::tan(m * kPi<double> / 2); }
+  static double derivative(double, double t) { return kPi<double> / 2 * (1 + t * t); }
+  static double density(double t2) { return 1 / ((1 + t2) * (1 + t2)); }
+  static double spread(double t) { return std::sqrt(1 + t * t); }
+};
+struct BeckmannSlopes {
+  static double place(double t) { return std::tanh(t); }
+  static double slope(double m) { return std::atanh(m); }
+  static double derivative(double m, double) { return 1 / ((1 - m) * (1 + m)); }
+  static double density(double t2) { return std::exp(-t2); }
+  static double spread(double) { return 1; }
+};
+inline GgxSlopes slopes_of(const Ggx<double>&) { return {}; }
+inline BeckmannSlopes slopes_of(const Beckmann<double>&) { return {}; }
+
+/// Places between -1 and 1 where an integral is to be cut.
+class Cuts {
+ public:
+  explicit Cuts(double from) : from_(from) {}
+
+  void add(double place) {
+    if (place > from_ + kLeast && place < 1 - kLeast) at_[size_++] = place;
+  }
+  bool empty() const { return size_ == 0; }
+
+  /// Sum of f over the parts from the first place to 1, `N` points each that crowd at both ends,
+  /// where f may be as a square root.
+  template <int N, class F>
+  double integrate(const F& f) {
+    std::sort(at_.begin(), at_.begin() + size_);
+    double sum = 0, a = from_;
+    for (int i = 0; i <= size_; ++i) {
+      const double b = i < size_ ? at_[i] : 1;
+      if (b - a > kLeast)
+        sum += mms::integrate<N>(
+                   [&](double s) { return 6 * s * (1 - s) * f(a + (b - a) * s * s * (3 - 2 * s)); },
+                   0, 1) *
+               (b - a);
+      a = b;
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr double kLeast = 1e-9;
+  double from_;
+  std::array<double, 16> at_;
+  int size_ = 0;
+};
+
+/// The loss at one facet's interface of relative index `eta`: what it reflects or refracts and
+/// other facets then take, or what leaves to the wrong side. A facet's normal is (x, y, 1), not of
+/// unit length, with x towards `wo` and y across; parts end where reflection or refraction leaves
+/// the surface grazing, or is just total, all of which are conics in (x, y).
+template <int Points, class Facets>
+double interface_loss(const Facets& facets, double eta, Vec3d wo) {
+  using Slopes = decltype(slopes_of(facets));
+  const double z = wo.z, s = std::hypot(wo.x, wo.y), s2 = s * s;
+  const double cx = s > 0 ? wo.x / s : 1, cy = s > 0 ? wo.y / s : 0;
+  const double ax = facets.ax, ay = facets.ay, along = std::hypot(ax * cx, ay * cy);
+  const double across = ax * ay / along;  // at one slope along, about a middle of
+  const double shear = cx * cy * (ay - ax) * (ay + ax) / (along * along);  // times that slope
+  const bool falls = eta < 1, round = ax == ay;
+  const double e = (1 - eta) * (1 + eta);  // where the index falls, cos^2 of the critical angle
+  const double hidden_wo = facets.shadow(wo);
+  const auto hidden = [&](double x, double y, double wz) {  // G2 / G1 away from 1
+    const double g = z * facets.shadow(Vec3d{x * cx - y * cy, x * cy + y * cx, wz});
+    const double c = std::abs(wz);
+    return g / (z * c + hidden_wo * c + g);
+  };
+  const auto lost = [&](double x, double y) {
+    const double facing = z + s * x, length2 = 1 + x * x + y * y, inverse = 1 / std::sqrt(length2);
+    const double c = std::min(1.0, facing * inverse), twice = 2 * facing / length2;
+    const FresnelSplit<double> f = fresnel_split(c, eta);
+    double sum = f.reflected;
+    if (twice > z) sum *= hidden(twice * x - s, twice * y, twice - z);
+    if (!(f.transmitted > 0)) return sum;
+    const double bend = e / (c + std::sqrt(std::max(0.0, refraction_g2(c, eta)))) * inverse;
+    const double down = (bend - z) / eta;
+    return sum +
+           f.transmitted * (down < 0 ? hidden((bend * x - s) / eta, bend * y / eta, down) : 1.0);
+  };
+  const auto row = [&](double x) {
+    const double t = x / along, width = across * Slopes::spread(t), middle = shear * x;
+    Cuts cuts(round ? 0 : -1);  // round facets are alike on both sides
+    const auto edge = [&](double y2) {
+      if (!(y2 > 0)) return;
+      const double y = std::sqrt(y2);
+      cuts.add(Slopes::place((y - middle) / width));
+      if (!round) cuts.add(Slopes::place((-y - middle) / width));
+    };
+    const double d = z * x - s;
+    edge((1 - d) * (1 + d) / (z * z));
+    if (falls) {
+      if (z * s * x <= s2 - eta * eta) edge((eta - d) * (eta + d) / (z * z));
+      edge((z + s * x) * (z + s * x) / e - 1 - x * x);
+    }
+    if (!round && (cuts.empty() || across > along)) cuts.add(0);
+    const double sum = cuts.integrate<Points>([&](double m) {
+      const double u = Slopes::slope(m), v = u * width / across;
+      const double weight = Slopes::derivative(m, u) * Slopes::density(t * t + v * v);
+      return weight > 1e-30 ? weight * lost(x, middle + width * u) : 0.0;
+    });
+    return (z + s * x) * width * sum;
+  };
+  const double away = s > 0 ? Slopes::place(-z / s / along) : -1;  // where facets turn away
+  Cuts cuts(away);
+  if (away < -0.5) cuts.add(0);
+  const auto edge = [&](double x) { cuts.add(Slopes::place(x / along)); };
+  edge((s - 1) / z);
+  edge((s + 1) / z);
+  if (falls) {
+    edge((s - eta) / z);
+    edge((s + eta) / z);
+    edge((s2 - eta * eta) / (z * s));
+    // Where light that meets facets along `wo` is just totally reflected.
+    const double a = s2 - e, root = e * (z * z + a), b = z * s + std::sqrt(std::max(0.0, root));
+    if (root > 0) {
+      edge(-b / a);
+      edge((e - z * z) / b);
+    }
+  }
+  const double sum = cuts.integrate<Points>([&](double m) {
+    const double t = Slopes::slope(m), x = along * t;
+    return z + s * x > 0 ? Slopes::derivative(m, t) * row(x) : 0.0;
+  });
+  return (round ? 2 : 1) * along * sum / (kPi<double> * ax * ay * (z + hidden_wo));
+}
+
+}  // namespace mms::materials::tables
