@@ -43,7 +43,7 @@ void print_json(const api::Accuracy& report) {
 void print_text(const api::Accuracy& report) {
   if (report.outputs.empty()) fmt::print("every output is constant\n");
   for (const api::OutputAccuracy& o : report.outputs) {
-    fmt::print("{} {}: {} numbers\n", o.descriptor, o.output, o.compared);
+    fmt::print("{} {}: {}\n", o.descriptor, o.output, counted(o.compared, "number"));
     if (o.compared > 0) {
       fmt::print("  ulp       worst {:<10.3g} median {:.3g}\n", o.worst_ulp, o.median_ulp);
       fmt::print("  absolute  worst {:<10.3g} median {:.3g}\n", o.worst_absolute,
@@ -59,8 +59,7 @@ void print_text(const api::Accuracy& report) {
     fmt::print("{} {}: {:.3g} points a second in float, {:.3g} in double ({:.2f} times)\n",
                s.descriptor, s.entry, s.float_points, s.double_points,
                s.float_points / s.double_points);
-  if (report.given_up > 0)
-    fmt::print("{} points ran out of their budget of steps\n", report.given_up);
+  if (report.given_up > 0) fmt::print("{} ran out of budget\n", counted(report.given_up, "point"));
 }
 
 Exit accuracy(const SampleOptions& options) {

@@ -98,8 +98,8 @@ void print_report(const CompareRequest& request, const Comparison& c, bool above
       fmt::print("{}: white is a difference of {:.3g} in [0, 1]\n", request.output, brightest(c));
   }
   if (c.not_finite > 0)
-    fmt::print(stderr, "warning: {}: {} pixels are not finite in one of the pictures\n",
-               request.picture, c.not_finite);
+    fmt::print(stderr, "warning: {}: {} {} not finite in one of the pictures\n", request.picture,
+               counted(c.not_finite, "pixel"), c.not_finite == 1 ? "is" : "are");
 }
 
 }  // namespace

@@ -273,8 +273,8 @@ std::string plot(const ConvergeRequest& request, const std::vector<std::string>&
     by_samples.series.push_back(samples);
     by_time.series.push_back(time);
   }
-  return log_plots(fs::path(request.files[0]).filename().string() +
-                       fmt::format(", against {} samples", request.reference_samples),
+  return log_plots(fs::path(request.files[0]).filename().string() + ", against " +
+                       counted(std::uint64_t(request.reference_samples), "sample"),
                    {by_samples, by_time});
 }
 
@@ -352,10 +352,11 @@ Exit measure_convergence(const ConvergeRequest& request) {
   if (const auto error = replace_file(svg, plot(request, names, rows)))
     return fail(Exit::File, *error, request);
   if (exit == Exit::Interrupted)
-    fmt::print(stderr, "stopped: {} has what was there, {} renders\n", request.output, rows.size());
+    fmt::print(stderr, "stopped: {} has what was there, {}\n", request.output,
+               counted(rows.size(), "render"));
   else if (!request.quiet && !request.json())
-    fmt::print("{}, {}: {} renders; the truth is known to {:.2g}\n", request.output, svg,
-               rows.size(), references.known_to());
+    fmt::print("{}, {}: {}; the truth is known to {:.2g}\n", request.output, svg,
+               counted(rows.size(), "render"), references.known_to());
   return exit;
 }
 

@@ -45,7 +45,7 @@ void print_report(const MergeRequest& request, const StoredFilm& sum) {
     if (tells_error(fewest)) json["error"] = error;
     fmt::print("{}\n", json.dump());
   } else if (!request.quiet) {
-    fmt::print("{}: {} samples per pixel, estimated error {}\n", request.output, fewest,
+    fmt::print("{}: {} per pixel, estimated error {}\n", request.output, counted(fewest, "sample"),
                error_text(fewest, error));
   }
 }

@@ -121,24 +121,30 @@ Json to_json(const std::string& script, const std::string& path, const renderer:
   return json;
 }
 
+/// "1 sample was", "2 samples were".
+std::string were(std::uint64_t samples) {
+  return counted(samples, "sample") + (samples == 1 ? " was" : " were");
+}
+
 /// Light that could not be added, or that the stated error does not know.
 void warn_of_samples(const std::string& script, const renderer::Report& r) {
   const renderer::Dropped& d = r.dropped;
   std::vector<std::string> left_out;
   if (d.nan + d.infinite > 0)
-    left_out.push_back(fmt::format("{} samples were not finite", d.nan + d.infinite));
+    left_out.push_back(fmt::format("{} not finite", were(d.nan + d.infinite)));
   if (d.overflow > 0)
-    left_out.push_back(fmt::format("{} samples were too bright ({:.2g} times white is the most)",
-                                   d.overflow, renderer::kLargestSample));
+    left_out.push_back(fmt::format("{} too bright ({:.2g} times white is the most)",
+                                   were(d.overflow), renderer::kLargestSample));
   if (!left_out.empty())
-    fmt::print(stderr, "warning: {}: {} and were left out; the first: pixel ({}, {}), sample {}\n",
-               script, fmt::join(left_out, ", "), d.first_x, d.first_y, d.first_sample);
+    fmt::print(stderr, "warning: {}: {} and {} left out; the first: pixel ({}, {}), sample {}\n",
+               script, fmt::join(left_out, ", "), d.count() == 1 ? "was" : "were", d.first_x,
+               d.first_y, d.first_sample);
   if (r.cut > 0)
     fmt::print(
         stderr,
-        "warning: {}: {} samples were brighter than {:.2g} times white; the stated error takes "
-        "them to be that bright, so it may be too small\n",
-        script, r.cut, renderer::kLargestForVariance);
+        "warning: {}: {} brighter than {:.2g} times white; the stated error takes no sample to "
+        "be brighter than that, so it may be too small\n",
+        script, were(r.cut), renderer::kLargestForVariance);
 }
 
 }  // namespace
@@ -265,8 +271,9 @@ void print_report(const RenderRequest& request, const RenderScript& linked,
   if (request.json()) {
     fmt::print("{}\n", json.dump());
   } else if (!request.quiet) {
-    fmt::print("{}: {} samples per pixel, {:.2f} s, estimated error {}\n", path, r.samples,
-               r.seconds, error_text(std::uint32_t(r.samples), r.rmse));
+    fmt::print("{}: {} per pixel, {:.2f} s, estimated error {}\n", path,
+               counted(r.samples, "sample"), r.seconds,
+               error_text(std::uint32_t(r.samples), r.rmse));
     if (request.report)
       for (const auto& [name, value] : json.items())
         if (value.is_number()) fmt::print("  {:<18}{}\n", name, value.dump());
@@ -280,12 +287,12 @@ void print_report(const RenderRequest& request, const RenderScript& linked,
                script, n.output, n.descriptor, n.settings.empty() ? "" : " ", n.settings);
   if (r.denser_samples > 0)
     fmt::print(stderr,
-               "warning: {}: volume denser than its bound: {} of {} samples; it was taken to be as "
+               "warning: {}: volume denser than its bound: {} of {}; it was taken to be as "
                "dense as the bound there\n",
-               script, r.denser_samples, r.medium_samples);
+               script, r.denser_samples, counted(r.medium_samples, "sample"));
   for (const renderer::FaultCount& f : r.faults)
-    fmt::print(stderr, "warning: {}: {} at {} points: the output's default was taken there\n",
-               f.where, f.cause, f.lanes);
+    fmt::print(stderr, "warning: {}: {} at {}: the output's default was taken there\n", f.where,
+               f.cause, counted(f.lanes, "point"));
 }
 
 }  // namespace mms::tools

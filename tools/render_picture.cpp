@@ -54,8 +54,8 @@ class ProgressLine {
   void show(const renderer::Progress& p) const {
     if (!shown_) return;
     const std::string error = p.error > 0 ? fmt::format(", error {:.2g}", p.error) : "";
-    fmt::print(stderr, "\r{}: {:3.0f}% {} samples{}, {:.0f} s, {:.0f} s left\x1b[K", name_,
-               100 * p.fraction, p.samples, error, p.seconds, p.seconds_left);
+    fmt::print(stderr, "\r{}: {:3.0f}% {}{}, {:.0f} s, {:.0f} s left\x1b[K", name_,
+               100 * p.fraction, counted(p.samples, "sample"), error, p.seconds, p.seconds_left);
     std::fflush(stderr);
   }
 

@@ -65,6 +65,10 @@ bool colours(const ScriptOptions& options) {
   return !(no && *no) && isatty(STDERR_FILENO);
 }
 
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 void print_error(const Error& error, bool colour) {
   fmt::print(stderr, "{}error:{} {}{}{}\n", colour ? "\x1b[1;31m" : "", colour ? "\x1b[0m" : "",
              error.where, error.where.empty() ? "" : ": ", error.what);

@@ -45,6 +45,9 @@ void add_colour_option(Verb& verb, ScriptOptions& options);
 /// Whether messages get ANSI colours.
 bool colours(const ScriptOptions& options);
 
+/// "1 sample", "2 samples".
+std::string counted(std::uint64_t count, std::string_view noun);
+
 /// `error: where: what`, and `  = help: hint`, to standard error.
 void print_error(const Error& error, bool colour = false);
 Exit fail(Exit code, const Error& error, const ScriptOptions& options);

@@ -190,11 +190,11 @@ Exit render_sheet(const RenderRequest& request) {
     fmt::print(stderr, "note: {}: no captions, since there is no font: install fonts-dejavu-core\n",
                path);
   if (cut)
-    fmt::print(stderr, "stopped: {} has {} of {} pictures in full\n", path, done, count);
+    fmt::print(stderr, "stopped: {} has {} of {} in full\n", path, done,
+               counted(std::uint64_t(count), "picture"));
   else if (!request.quiet && !request.json())
-    fmt::print("{}: {}{} pictures of {}x{}\n", path,
-               done < count ? fmt::format("{} of ", done) : "", count, request.width,
-               request.height);
+    fmt::print("{}: {}{} of {}x{}\n", path, done < count ? fmt::format("{} of ", done) : "",
+               counted(std::uint64_t(count), "picture"), request.width, request.height);
   return worst;
 }
 

@@ -161,8 +161,7 @@ Exit test(const std::string& name, const std::vector<Example>& examples,
     report(name, example, outcome, options);
   }
   if (!options.json())
-    fmt::print("{}: {} example{}, {} failed\n", name, examples.size(),
-               examples.size() == 1 ? "" : "s", failed);
+    fmt::print("{}: {}, {} failed\n", name, counted(examples.size(), "example"), failed);
   return failed > 0 ? Exit::Script : Exit::Ok;
 }
 

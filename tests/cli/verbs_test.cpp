@@ -294,13 +294,15 @@ TEST_CASE("render writes a picture and one line about it") {
   CHECK(run.exit == 0);
   CHECK(run.err == "");
   CHECK(run.out.starts_with("marble.png: 2 samples per pixel, "));
+  CHECK(folder.mms("render marble.mms --size 16x8 --samples 1 -o one.png")
+            .out.starts_with("one.png: 1 sample per pixel, "));
   CHECK(contains(run.out, "estimated error"));
   const std::string png = folder.read("marble.png");
   REQUIRE(png.size() > 24);
   CHECK(png.substr(1, 3) == "PNG");
   CHECK(png[19] == 16);  // width and height, big-endian, of the IHDR chunk
   CHECK(png[23] == 8);
-  CHECK(folder.file_count() == 2);
+  CHECK(folder.file_count() == 3);
 }
 
 TEST_CASE("render of several scripts, to a folder, as JSON") {
