@@ -100,9 +100,11 @@ Exit eval(const EvalOptions& options) {
   Exit exit = Exit::Ok;
   auto sources = read_sources(files, options, exit);
   if (!sources) return exit;
+  // A comment at the end must not take the semicolon with it.
+  const char* end = expression.find("//") == std::string::npos ? "" : "\n";
   if (!expression.empty())
-    sources->push_back(
-        lang::make_source("<expression>", fmt::format("const {} = {};\n", kName, expression)));
+    sources->push_back(lang::make_source(
+        "<expression>", fmt::format("const {} = {}{};\n", kName, expression, end)));
   const auto compiled = compile(*sources, options, exit);
   if (!compiled) return exit;
   return options.precision == "double"

@@ -141,6 +141,7 @@ TEST_CASE("eval prints values of every type") {
   CHECK(eval("'1 + 2'") == "3\n");
   CHECK(eval("'1 / 2'") == "0.5\n");
   CHECK(eval("'2 > 1'") == "true\n");
+  CHECK(eval("'1 + 1 // two'") == "2\n");
   CHECK(eval("'2i * 2i + 1i'") == "-4+1i\n");
   CHECK(eval("-- '-7 % 3'") == "2\n");
   CHECK(eval("'[1.0, 2.0, 3.5]'") == "[1, 2, 3.5]\n");
