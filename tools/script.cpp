@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -138,6 +139,16 @@ Error no_such(const std::string& name, const std::vector<lang::ParamInfo>& param
   return {std::string(kSet), fmt::format("nothing is called `{}`", name), hint};
 }
 
+/// Imports are not looked for in what is no folder.
+void warn_of_folders(const ScriptOptions& options) {
+  std::error_code ignored;
+  for (const std::string& folder : options.import_path)
+    if (!std::filesystem::is_directory(folder, ignored) && is_news("-I " + folder, options))
+      fmt::print(stderr,
+                 "warning: -I {}: there is no such folder\n  = help: the path starts from {}\n",
+                 folder, std::filesystem::current_path(ignored).string());
+}
+
 /// What is left of the settings once the params have had theirs.
 Result<std::vector<VariableSetting>> variables(const Settings& settings, const lang::Linked& linked,
                                                bool at_points) {
@@ -249,6 +260,7 @@ void print(const lang::Diagnostics& diagnostics, const ScriptOptions& options) {
 std::optional<Compiled> compile(const std::vector<lang::SourcePtr>& sources,
                                 const ScriptOptions& options, lang::Diagnostics& diagnostics,
                                 Exit& exit) {
+  warn_of_folders(options);
   const Result<Settings> settings = split(options.settings);
   if (!settings) {
     exit = fail(Exit::Usage, settings.error(), options);
