@@ -59,19 +59,26 @@ class Keys {
   std::string twice_;
 };
 
+/// Whether there is nothing but space and comments: then a value after it is the only one.
+bool is_empty(std::string_view text) {
+  return Json::parse(std::string(text) + "\nnull", nullptr, /*allow_exceptions=*/false,
+                     /*ignore_comments=*/true)
+      .is_null();
+}
+
 }  // namespace
 
 Result<Json> json_of(std::string_view text, const std::string& origin) {
-  if (text.find_first_not_of(" \t\r\n") == text.npos)
-    return Error{origin, "the file is empty",
-                 R"(a first scene: {"environment": {"constant": 1}, )"
-                 R"("objects": [{"sphere": {"radius": 1}, "test": true}]})"};
   Keys keys;
   try {
     Json json = Json::parse(text, std::ref(keys), true, /*ignore_comments=*/true);
     if (keys.twice().empty()) return json;
     return Error{origin + ": " + keys.twice(), "the object has this key twice", "leave one out"};
   } catch (const Json::exception& e) {  // what is not JSON, and numbers beyond double
+    if (is_empty(text))
+      return Error{origin, "the file is empty",
+                   R"(a first scene: {"environment": {"constant": 1}, )"
+                   R"("objects": [{"sphere": {"radius": 1}, "test": true}]})"};
     std::string what = e.what();  // "[json.exception.parse_error.101] parse error at line 3, ..."
     if (const std::size_t end = what.find("] "); end != std::string::npos) what.erase(0, end + 2);
     return Error{origin, what, "scene files are JSON; comments are allowed (docs/scene.md)"};

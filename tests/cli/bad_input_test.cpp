@@ -295,6 +295,8 @@ TEST_CASE("scenes that hold nothing, too much, or what is no number") {
   } cases[] = {
       {"", "scene.json", "the file is empty"},
       {" \n", "scene.json", "the file is empty"},
+      {"// nothing\n/* yet */ // at all", "scene.json", "the file is empty"},
+      {"/* open", "scene.json", "missing closing"},
       {"null", "scene.json", "expected an object"},
       {R"({"objects": []})", "scene.json: objects", "no object"},
       {deep, "scene.json", "unexpected end of input"},
