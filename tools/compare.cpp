@@ -2,6 +2,7 @@
 // mms compare: its options.
 #include "tools/compare.h"
 
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
@@ -16,7 +17,7 @@ Exit compare(CompareRequest request) {
   if (const auto error = read_picture_options(request)) return fail(Exit::Usage, *error, request);
   if (!request.threshold.empty()) {
     const auto limit = number<double>(request.threshold);
-    if (!limit || !(*limit >= 0))
+    if (!limit || !(*limit >= 0) || !std::isfinite(*limit))
       return fail(Exit::Usage,
                   {"--threshold", fmt::format("`{}` is no threshold", request.threshold),
                    "a number from 0 up; 0 asks for equal pictures"},

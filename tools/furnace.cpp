@@ -17,6 +17,7 @@
 #include "tools/evaluate.h"
 #include "tools/furnace_report.h"
 #include "tools/overwrite.h"
+#include "tools/picture.h"
 
 namespace mms::tools {
 
@@ -41,12 +42,13 @@ bool is_of_interest(const vm::Descriptor& d, const vm::Program& program) {
 }
 
 Exit furnace(const FurnaceOptions& options) {
-  const int samples = std::atoi(options.samples.c_str());
-  if (samples < 1 || samples > 100'000'000)
+  const long long count = number<long long>(options.samples).value_or(0);
+  if (count < 1 || count > 100'000'000)
     return fail(Exit::Usage,
                 {"--samples=" + options.samples, "is no number from 1 to 100000000",
                  "for example --samples=20000"},
                 options);
+  const int samples = int(count);
   Exit exit = Exit::Ok;
   ScriptOptions compiling = options;
   compiling.format = "text";  // standard output is for the one object

@@ -86,7 +86,7 @@ std::optional<Error> read_numbers(RenderRequest& r) {
   r.seed_number = *seed;
   if (!r.checkpoint.empty()) {
     const auto seconds = number<double>(r.checkpoint);
-    if (!seconds || !(*seconds >= 0))
+    if (!seconds || !(*seconds >= 0) || !std::isfinite(*seconds))
       return Error{"--checkpoint", fmt::format("`{}` is not a number of seconds", r.checkpoint),
                    "how much work may be lost at most; 0 is never"};
     r.checkpoint_seconds = *seconds;

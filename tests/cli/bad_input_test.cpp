@@ -213,6 +213,42 @@ TEST_CASE("unknown verb, option or message code") {
   check_message(folder.mms("eval --set 'position=[1,2]' 1"), 2, "--set $position", "real[3]");
 }
 
+TEST_CASE("numbers that are none, or absurd") {
+  const Folder folder;
+  folder.write("good.mms", kGood);
+  for (const std::string number : {"inf", "nan", "-1", "0", "1e300", "many", "4096x"})
+    check_message(folder.mms("check good.mms --image-memory=" + number), 2, "--image-memory",
+                  "`" + number + "` is not a number from 1 to");
+  for (const std::string number : {"inf", "nan", "99999999999", "20000x", "-5"})
+    check_message(folder.mms("furnace good.mms --samples=" + number), 2, "--samples=" + number,
+                  "no number from 1");
+  for (const std::string number : {"inf", "nan", "-1"})
+    check_message(folder.mms("compare a.png b.png --threshold=" + number), 2, "--threshold",
+                  "`" + number + "` is no threshold");
+}
+
+TEST_CASE("a folder of imports that is not there is warned of") {
+  const Folder folder;
+  folder.write("good.mms", kGood);
+  std::filesystem::create_directory(folder.path("lib"));
+  const Outcome run = folder.mms("check good.mms -I lib -I lbi -I good.mms");
+  CHECK(run.exit == 0);
+  CHECK(run.err.starts_with("warning: -I lbi: there is no such folder\n  = help: "));
+  CHECK(contains(run.err, "warning: -I good.mms: there is no such folder"));
+  CHECK_FALSE(contains(run.err, "-I lib"));
+}
+
+TEST_CASE("a compiled program over a picture") {
+  const Folder folder;
+  folder.write("good.mms", kGood);
+  folder.write("x.png", "\x89PNG");
+  check_message(folder.mms("compile good.mms -o x.png"), 2, "x.png", "no compiled program");
+  CHECK(folder.read("x.png") == "\x89PNG");
+  folder.write("empty.mmsc", "");
+  for (const std::string file : {"new.png", "new.png", "empty.mmsc"})
+    CHECK(folder.mms("compile good.mms -o " + file).exit == 0);
+}
+
 TEST_CASE("a compiled program over its script") {
   const Folder folder;
   folder.write("lib.mms", "const real shade = 0.5;\n");
@@ -265,6 +301,8 @@ TEST_CASE("numbers out of range") {
   check_render("-o out.png --max-depth 0", 2, "--max-depth", "0 is not in");
   check_render("-o out.png --threads -1", 2, "--threads", "-1 is not in");
   check_render("-o out.png --seed x", 2, "--seed", "`x`");
+  for (const std::string number : {"inf", "nan", "-1"})
+    check_render("-o out.png --checkpoint=" + number, 2, "--checkpoint", "`" + number + "`");
 }
 
 TEST_CASE("one picture for two scripts") {
