@@ -72,12 +72,34 @@ void build(CLI::App& app, const std::vector<Verb>& verbs, Exit& exit) {
   }
 }
 
+/// The option that a verb does not have, or empty where `text` says another thing.
+std::string unknown_option(const std::string& text) {
+  const std::size_t at = text.find(" not expected: -");
+  if (at == text.npos) return "";
+  const std::string word = text.substr(text.find('-', at));
+  return word.substr(0, word.find_first_of(" =\n"));
+}
+
+/// What to try in place of an option that `verb` does not have.
+std::string near_option(const CLI::App& verb, const std::string& wrong) {
+  std::vector<std::string> names;
+  for (const CLI::Option* o : verb.get_options())
+    names.insert(names.end(), o->get_lnames().begin(), o->get_lnames().end());
+  const std::string near = lang::nearest(wrong.substr(wrong.find_first_not_of('-')), names);
+  return near.empty() ? fmt::format("`mms {} --help` shows the options", verb.get_name())
+                      : fmt::format("did you mean `--{}`?", near);
+}
+
 /// A first word that is no verb, or a mistake in the options of one.
 Exit usage_error(const CLI::App& app, const CLI::ParseError& e, const std::string& word) {
   for (const CLI::App* verb : app.get_subcommands()) {
     const std::string name = "mms " + verb->get_name();
     const std::string text = e.what();
     const std::size_t end = text.find('\n');
+    if (const std::string wrong = unknown_option(text); !wrong.empty()) {
+      print_error({name, "no such option: " + wrong, near_option(*verb, wrong)});
+      return Exit::Usage;
+    }
     const std::size_t count = text.find(": At Most 1 required but received ");
     print_error({name,
                  count == text.npos ? text.substr(0, end)

@@ -207,6 +207,12 @@ TEST_CASE("unknown verb, option or message code") {
   check_message(folder.mms("check --colour=maybe x.mms"), 2, "mms check", "--colour");
   check_message(folder.mms("check --color=maybe x.mms"), 2, "mms check", "maybe");
   check_message(folder.mms("explain E9999"), 2, "mms explain", "E9999");
+  check_message(folder.mms("check --seting a=1 x.mms"), 2, "mms check: no such option: --seting",
+                "`mms check --help`");
+  check_message(folder.mms("check --mising=magenta x.mms"), 2, "no such option: --mising",
+                "did you mean `--missing`?");
+  check_message(folder.mms("explain unusd"), 2, "mms explain", "did you mean `unused`?");
+  check_message(folder.mms("explain semicolon"), 2, "mms explain", "these speak of it: E0120");
   check_message(folder.mms("doc stdlb"), 2, "mms doc", "did you mean `stdlib`?");
   check_message(folder.mms("eval --set 'positoin=[1,2,3]' 1"), 2, "--set",
                 "did you mean `$position`?");
