@@ -67,13 +67,18 @@ std::string_view enclosed(const vm::Builtin& row) {
   return "";
 }
 
+/// Of `real perlin(real x)`: perlin.
+std::string name_of(std::string_view header) {
+  const std::string_view call = header.substr(0, header.find('('));
+  return std::string(call.substr(call.rfind(' ') + 1));
+}
+
 /// The picture of a noise or a pattern: examples/figures/library.mms has a surface of its name.
 /// Later functions of the same name have none.
 class Pictures {
  public:
   std::string of(std::string_view header) {
-    const std::string_view call = header.substr(0, header.find('('));
-    const std::string name(call.substr(call.rfind(' ') + 1));
+    const std::string name = name_of(header);
     constexpr std::string_view kPictured = MMS_PICTURED;
     if (kPictured.find(" " + name + " ") == kPictured.npos || !shown_.insert(name).second)
       return "";
@@ -91,25 +96,39 @@ std::string entry(const vm::Builtin& row, Pictures& pictures) {
   return text + "\n";
 }
 
-/// The functions of a module that is written in the language, from its doc comments.
-std::string module_entries(const lang::Library::Module& module, Pictures& pictures) {
+/// The names and entries of the functions of a module that is written in the language, from its
+/// doc comments.
+std::vector<std::pair<std::string, std::string>> module_entries(const lang::Library::Module& module,
+                                                                Pictures& pictures) {
   lang::Diagnostics diagnostics;
   const lang::SourcePtr source =
       lang::make_source(std::string(module.name) + ".mms", std::string(module.text));
   const lang::Graph graph = lang::parse(source, diagnostics);
-  std::string text;
+  std::vector<std::pair<std::string, std::string>> entries;
   for (const lang::FunctionHandle handle : graph.top_functions) {
     const lang::Function& f = graph[handle];
     if (f.doc.empty()) continue;
     const std::string header(lang::text_of(f.header));
-    text += fmt::format("`{}`\n\n{}{}\n", header, pictures.of(header), doc_markdown(f.doc));
+    entries.emplace_back(name_of(header), fmt::format("`{}`\n\n{}{}\n", header, pictures.of(header),
+                                                      doc_markdown(f.doc)));
   }
-  return text;
+  return entries;
 }
 
 }  // namespace
 
 std::span<const Document> documents() { return kDocuments; }
+
+std::map<std::string, std::string> function_documents() {
+  std::map<std::string, std::string> all;
+  const lang::Library& library = api::standard_library();
+  Pictures pictures;
+  for (const vm::Builtin& row : library.builtins)
+    all[name_of(row.signature)] += entry(row, pictures);
+  for (const lang::Library::Module& m : library.modules)
+    for (const auto& [name, text] : module_entries(m, pictures)) all[name] += text;
+  return all;
+}
 
 std::string stdlib_document() {
   std::map<std::string, std::string> modules;  // sorted by name
@@ -118,7 +137,7 @@ std::string stdlib_document() {
   for (const vm::Builtin& row : library.builtins)
     modules[std::string(row.lobe >= 0 ? "materials" : row.module)] += entry(row, pictures);
   for (const lang::Library::Module& m : library.modules)
-    if (const std::string text = module_entries(m, pictures); !text.empty())
+    for (const auto& [name, text] : module_entries(m, pictures))
       modules[std::string(m.name)] += text;
   std::string text = fmt::format(
       "# The library\n\n{}\nEvery function can be called by its bare name; "

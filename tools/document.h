@@ -4,6 +4,7 @@
 /// \file
 /// The pages of docs/ that are made from the tables of the code.
 
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,9 @@ struct Document {
 };
 
 std::span<const Document> documents();
+
+/// What the library's page says of the functions and materials of each name.
+std::map<std::string, std::string> function_documents();
 
 std::string stdlib_document();
 std::string bytecode_document();

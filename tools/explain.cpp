@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // mms explain: the pages of the error index about messages.
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdio>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "tools/commands.h"
 #include "tools/script.h"
@@ -22,24 +24,39 @@ bool is_script(const std::string& what) {
   return what == "-" || what.find_first_of("./") != std::string::npos;
 }
 
+/// Whether the title of a message, `MissingSemicolon`, or its text has a word.
+bool speaks_of(const lang::DiagInfo& row, const std::string& word) {
+  const auto same = [](unsigned char a, unsigned char b) {
+    return std::tolower(a) == std::tolower(b);
+  };
+  return std::ranges::any_of(std::array{row.name, row.text}, [&](std::string_view text) {
+    return !std::ranges::search(text, word, same).empty();
+  });
+}
+
 Exit explain_code(const std::string& code, const ScriptOptions& options) {
   std::string upper = code;
   std::transform(upper.begin(), upper.end(), upper.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  std::vector<std::string> codes;
+  std::vector<std::string> codes, same_word;
   for (const lang::DiagInfo& row : lang::all_diagnostics()) {
-    if (row.code == upper || row.name == code) {
+    if (row.code == upper || row.name == code || (!row.flag.empty() && row.flag == code)) {
       fmt::print("{}", lang::page(row));
       return Exit::Ok;
     }
-    codes.emplace_back(row.code);
+    for (const std::string_view name : {row.code, row.name, row.flag})
+      if (!name.empty()) codes.emplace_back(name);
+    if (speaks_of(row, code)) same_word.emplace_back(row.code);
   }
-  const std::string near = lang::nearest(upper, codes);
-  return fail(Exit::Usage,
-              {"mms explain", fmt::format("no message has the code `{}`", code),
-               near.empty() ? "codes look like E0203; docs/errors.md lists them"
-                            : fmt::format("did you mean `{}`? docs/errors.md lists all", near)},
-              options);
+  std::string near = lang::nearest(code, codes);
+  if (near.empty()) near = lang::nearest(upper, codes);
+  return fail(
+      Exit::Usage,
+      {"mms explain", fmt::format("no message has the code `{}`", code),
+       !near.empty()        ? fmt::format("did you mean `{}`? docs/errors.md lists all", near)
+       : !same_word.empty() ? fmt::format("these speak of it: {}", fmt::join(same_word, ", "))
+                            : "codes look like E0203; docs/errors.md lists them"},
+      options);
 }
 
 /// The page of each message that there is to say of a script, once each.

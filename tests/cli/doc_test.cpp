@@ -58,6 +58,20 @@ std::set<std::string> attributes(const std::string& html, const std::string& nam
 
 }  // namespace
 
+TEST_CASE("doc prints what the library says of a function, and explain the page of a warning") {
+  const Folder folder;
+  const Outcome all = folder.mms("doc stdlib"), perlin = folder.mms("doc perlin");
+  INFO(perlin.err);
+  CHECK(perlin.exit == 0);
+  CHECK(perlin.out.starts_with("`real perlin(real x)`\n"));
+  CHECK(contains(perlin.out, "`real perlin(real[2] p)`\n"));
+  CHECK_FALSE(contains(perlin.out, "`real perlin_gradient("));
+  CHECK(contains(all.out, perlin.out.substr(0, perlin.out.find("`real perlin(real[2]"))));
+  CHECK(contains(folder.mms("doc matte").out, "material matte("));
+  CHECK(contains(folder.mms("explain unused-param").out, "W0404"));
+  CHECK(folder.mms("explain unused").out == folder.mms("explain W0401").out);
+}
+
 TEST_CASE("the manual of a script is made of its comments") {
   const Folder folder;
   folder.write("s.mms", kScript);
