@@ -65,7 +65,8 @@ class ProgressLine {
 };
 
 /// How a finished render ends: stopped by hand, given up for its faults, or well.
-Exit verdict(const RenderRequest& request, const std::string& path, const renderer::Report& r) {
+Exit verdict(const RenderRequest& request, const std::string& path, const renderer::Report& r,
+             bool resumable) {
   if (r.too_many_faults)
     return fail(Exit::Budget,
                 {r.faults.empty() ? path : r.faults[0].where,
@@ -74,8 +75,8 @@ Exit verdict(const RenderRequest& request, const std::string& path, const render
                  "check the condition that ends the recursion on this line"},
                 request);
   if (!r.stopped) return Exit::Ok;
-  fmt::print(stderr, "stopped: {} holds what was there, {} samples per pixel; --resume goes on\n",
-             path, r.samples);
+  fmt::print(stderr, "stopped: {} holds what was there, {} per pixel{}\n", path,
+             counted(r.samples, "sample"), resumable ? "; --resume goes on" : "");
   return Exit::Interrupted;
 }
 
@@ -121,12 +122,22 @@ class Checkpoint {
       fmt::print(stderr, "{}warning: {}: {}; rendering goes on\n", below_ ? "\n" : "",
                  saved.error().where, saved.error().what);
   }
+  /// The same once rendering has ended.
+  void save_last(const renderer::PartialFilm& film) {
+    const auto saved = renderer::save_film(path_, key_, film);
+    if (saved) return;
+    last_failed_ = true;
+    fmt::print(stderr, "warning: {}: {}; --resume will lack the last samples\n",
+               saved.error().where, saved.error().what);
+  }
+  /// Whether `--resume` goes on with all that was rendered.
+  bool holds_all() const { return !last_failed_; }
   const std::string& path() const { return path_; }
 
  private:
   std::string path_;
   renderer::FilmKey key_;
-  bool below_, failed_ = false;
+  bool below_, failed_ = false, last_failed_ = false;
 };
 
 /// Writes what was asked for, and leaves a checkpoint behind where work would be lost without.
@@ -134,10 +145,10 @@ Result<renderer::Done> write_result(const RenderRequest& request, const std::str
                                     Checkpoint& checkpoint, const renderer::FilmKey& key,
                                     const renderer::Rendered& r) {
   if (path == checkpoint.path()) return renderer::save_film(path, key, *r.sums, r.layers.get());
-  if (r.report.stopped) checkpoint.save(*r.sums);
+  if (r.report.stopped) checkpoint.save_last(*r.sums);
   const auto written = renderer::write_picture(
       path, {r.film, r.layers.get(), metadata(path, key, *r.sums)}, view_of(request));
-  if (!written && !r.report.stopped) checkpoint.save(*r.sums);
+  if (!written && !r.report.stopped) checkpoint.save_last(*r.sums);
   std::error_code ignored;
   if (written && !r.report.stopped) fs::remove(checkpoint.path(), ignored);
   return written;
@@ -184,7 +195,7 @@ Exit render_one(const RenderRequest& request, const RenderScript& script, const 
   if (!written) return fail(Exit::File, written.error(), request);
   print_report(request, script, file, path, rendered->report);
   if (!request.quiet) note_if_black(path, rendered->film);
-  return verdict(request, path, rendered->report);
+  return verdict(request, path, rendered->report, checkpoint.holds_all());
 }
 
 /// One turn of the test object: `NAME.000.png` and so on.

@@ -180,6 +180,18 @@ TEST_CASE("a checkpoint that cannot be written is warned of in a line of its own
   CHECK(run.err.starts_with("warning: a.png.film: "));
 }
 
+TEST_CASE("a checkpoint that cannot be written when a render was stopped is told as that") {
+  const Folder folder;
+  REQUIRE(folder.bash("mkdir a.png.film").exit == 0);
+  const Outcome run =
+      folder.interrupted_render("-o a.png --size 32x32 --checkpoint 0 --samples 100000", kScript);
+  CHECK(run.exit == 130);
+  CHECK(run.err.starts_with("warning: a.png.film: "));
+  CHECK(contains(run.err, "; --resume will lack the last samples\n"));
+  CHECK(contains(run.err, "stopped: a.png holds what was there"));
+  CHECK_FALSE(contains(run.err, "goes on"));
+}
+
 TEST_CASE("a film with more samples than are asked for is not taken for a picture of them") {
   const Folder folder;
   folder.write("s.mms", kScript);
