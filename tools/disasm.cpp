@@ -10,6 +10,7 @@
 #include "api/excerpts.h"
 #include "tools/commands.h"
 #include "tools/script.h"
+#include "tools/stored.h"
 #include "vm/listing.h"
 #include "vm/verify.h"
 
@@ -25,7 +26,14 @@ std::vector<std::string> pass_names() {
 
 Exit disasm(const ScriptOptions& options) {
   Exit exit = Exit::Ok;
-  const auto linked = compile_files(options.files, options, exit);
+  const auto sources = read_sources(options.files, options, exit);
+  if (!sources) return exit;
+  if (!options.dump_after.empty() && any_stored(*sources))
+    return fail(Exit::Usage,
+                {"--dump-after", "a compiled program has its passes behind it",
+                 "give the scripts that it is made from"},
+                options);
+  const auto linked = compile(*sources, options, exit);
   if (!linked) return exit;
   if (options.dump_after.empty()) {
     const vm::Program& program = linked->program;

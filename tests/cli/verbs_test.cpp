@@ -244,6 +244,10 @@ TEST_CASE("disasm --dump-after prints the graph after a pass that runs") {
   CHECK(none.exit == 2);
   CHECK(contains(none.err, "does not run at -O0"));
   CHECK(folder.mms("disasm --dump-after=flod s.mms").exit == 2);
+  REQUIRE(folder.mms("compile s.mms -o s.mmsc").exit == 0);
+  const Outcome stored = folder.mms("disasm --dump-after=fold s.mmsc");
+  CHECK(stored.exit == 2);
+  CHECK(contains(stored.err, "a compiled program has its passes behind it"));
   CHECK(contains(folder.mms("doc passes").out, "| `fold` | -O1 |"));
 }
 
