@@ -214,6 +214,7 @@ TEST_CASE("unknown verb, option or message code") {
   check_message(folder.mms("explain unusd"), 2, "mms explain", "did you mean `unused`?");
   check_message(folder.mms("explain semicolon"), 2, "mms explain", "these speak of it: E0120");
   check_message(folder.mms("doc stdlb"), 2, "mms doc", "did you mean `stdlib`?");
+  check_message(folder.mms("doc perln"), 2, "mms doc", "did you mean `perlin`?");
   check_message(folder.mms("eval --set 'positoin=[1,2,3]' 1"), 2, "--set",
                 "did you mean `$position`?");
   check_message(folder.mms("eval --set 'position=[1,2]' 1"), 2, "--set $position", "real[3]");
