@@ -158,6 +158,11 @@ class Parser {
     if (o.displace > 0 && o.displace_pixels > 0)
       n[key].fail("an edge is in metres or in pixels", "leave one of the two out");
     bind(n, o);
+    const bool asked = o.test && !source_.surface.empty();
+    if (o.to_displace() && n.has("surface") && !asked &&
+        !data_.surfaces[std::size_t(o.surface)].script)
+      n[key].fail("a material of the scene has no `height` to displace by",
+                  fmt::format("wear a surface of the script that has one, or leave `{}` out", key));
     if (o.volume >= 0 && open(o.shape))
       n.fail("a volume needs a closed object", "a sphere, a box, or a closed mesh");
     const double priority = n.number_or("priority", 0, 0, 1000);

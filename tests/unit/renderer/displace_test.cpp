@@ -208,6 +208,17 @@ TEST_CASE("what cannot be displaced is told") {
       "");
   REQUIRE_FALSE(bool(both));
   CHECK(both.error().where == "s: objects[0].displace_pixels");
+  const auto grey = [&](const std::string& asked) {
+    SceneSource source;
+    source.surface = asked;
+    return parse_scene(p, source, R"({"materials": {"grey": {"matte": 0.5}},
+        "objects": [{"sphere": {}, "test": true, "surface": "grey", "displace_pixels": 1}]})",
+                       "s", "");
+  };
+  REQUIRE_FALSE(bool(grey("")));
+  CHECK(grey("").error().where == "s: objects[0].displace_pixels");
+  CHECK(grey("").error().what == "a material of the scene has no `height` to displace by");
+  CHECK(bool(grey("s")));
   const Scene fine =
       scene_of(p, R"({"objects": [{"sphere": {}, "test": true, "displace": 1e-5}]})");
   const Result<SceneData> r =
