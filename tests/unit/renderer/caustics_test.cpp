@@ -319,17 +319,7 @@ TEST_CASE("the ground gets what rays through a clear ball bring, or off a mirror
     const double radius = 0.35;
     const Vec3d facing = normalize(through ? Vec3d{-1, -1.2, 0.05} : Vec3d{1, 0.05, 0.3});
     const Vec3d lamp = through ? facing * -2.5 : Vec3d{-1.5, 1, -0.4};
-    const Scene s =
-        scene_of(p, fmt::format(R"({{"camera": {{"position": [0, 1.2, 0], "target": [0, 0, 0],
-      "up": [0, 0, -1], "fov": 0.01}},
-      "materials": {{"lamp": {{"matte": 0, "emission": 2}}, "ground": {{"matte": 0.5}}}},
-      "objects": [{{"quad": {{"corner": [-1, 0, 1], "u": [2, 0, 0], "v": [0, 0, -2]}},
-      "surface": "ground"}},
-      {{"sphere": {{"center": [{}, {}, {}], "radius": {}}}, "test": true}},
-      {{"disc": {{"center": [{}, {}, {}], "normal": [{}, {}, {}], "radius": {}}},
-      "surface": "lamp"}}]}})",
-                                ball.x, ball.y, ball.z, radius, lamp.x, lamp.y, lamp.z, facing.x,
-                                facing.y, facing.z, lamp_radius));
+    const Scene s = scene_of(p, ground_by_ball(ball, radius, lamp, facing, lamp_radius));
     CAPTURE(lamp_radius);
     RenderOptions o = options(16, kSanitized ? 64 : 1024);
     o.max_depth = through ? 2 : 1;  // less than it takes

@@ -182,17 +182,7 @@ TEST_CASE("the ground gets what a rough ball sends on from a lamp") {
         compile(fmt::format("surface s bsdf = microfacet(1, {}); end\n", roughness));
     const Vec3d ball{0.45, 0.5, 0}, facing = normalize(Vec3d{1, -0.1, 0.3}), lamp{-1.5, 1, -0.4};
     const double radius = 0.35;
-    const Scene s =
-        scene_of(p, fmt::format(R"({{"camera": {{"position": [0, 1.2, 0], "target": [0, 0, 0],
-      "up": [0, 0, -1], "fov": 0.01}},
-      "materials": {{"lamp": {{"matte": 0, "emission": 2}}, "ground": {{"matte": 0.5}}}},
-      "objects": [{{"quad": {{"corner": [-1, 0, 1], "u": [2, 0, 0], "v": [0, 0, -2]}},
-      "surface": "ground"}},
-      {{"sphere": {{"center": [{}, {}, {}], "radius": {}}}, "test": true}},
-      {{"disc": {{"center": [{}, {}, {}], "normal": [{}, {}, {}], "radius": {}}},
-      "surface": "lamp"}}]}})",
-                                ball.x, ball.y, ball.z, radius, lamp.x, lamp.y, lamp.z, facing.x,
-                                facing.y, facing.z, lamp_radius));
+    const Scene s = scene_of(p, ground_by_ball(ball, radius, lamp, facing, lamp_radius));
     RenderOptions o = options(16, kSanitized ? 32 : 1024);
     o.max_depth = 1;
     const Mean straight = mean_luminance(run(p, s, o).film);

@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "hand_program.h"
 #include "lang/link.h"
 #include "lang/parser.h"
@@ -79,6 +81,22 @@ inline std::string patch(const std::string& light, const std::string& environmen
     "materials": {"lamp": {"matte": 0, "emission": 2}},
     "objects": [{"quad": {"corner": [-1, 0, 1], "u": [2, 0, 0], "v": [0, 0, -2]}, "test": true})" +
          light + "]}";
+}
+
+/// Matte ground around the origin, seen from straight above, a ball of the script's surface beside
+/// it, and a disc that radiates 2 towards `facing`.
+inline std::string ground_by_ball(Vec3d ball, double radius, Vec3d lamp, Vec3d facing,
+                                  double lamp_radius) {
+  return fmt::format(R"({{"camera": {{"position": [0, 1.2, 0], "target": [0, 0, 0],
+      "up": [0, 0, -1], "fov": 0.01}},
+      "materials": {{"lamp": {{"matte": 0, "emission": 2}}, "ground": {{"matte": 0.5}}}},
+      "objects": [{{"quad": {{"corner": [-1, 0, 1], "u": [2, 0, 0], "v": [0, 0, -2]}},
+      "surface": "ground"}},
+      {{"sphere": {{"center": [{}, {}, {}], "radius": {}}}, "test": true}},
+      {{"disc": {{"center": [{}, {}, {}], "normal": [{}, {}, {}], "radius": {}}},
+      "surface": "lamp"}}]}})",
+                     ball.x, ball.y, ball.z, radius, lamp.x, lamp.y, lamp.z, facing.x, facing.y,
+                     facing.z, lamp_radius);
 }
 
 }  // namespace mms::renderer::test
