@@ -80,28 +80,6 @@ class Setting {
     return render(side, o);
   }
 
-  /// At most `depth` scattering events.
-  Rendered render_deep(int side, int samples, int threads, int depth, std::uint64_t seed) const {
-    RenderOptions o;
-    o.samples = samples;
-    o.threads = threads;
-    o.seed = seed;
-    o.max_depth = depth;
-    return render(side, o);
-  }
-
-  /// On one thread, until the picture states that its error is no larger.
-  Rendered render_to(int side, double error, int depth, std::uint64_t seed) const {
-    RenderOptions o;
-    o.samples = renderer::kMostSamples;
-    o.threads = 1;
-    o.seed = seed;
-    o.max_depth = depth;
-    o.error = error;
-    return render(side, o);
-  }
-
- private:
   Rendered render(int side, RenderOptions o) const {
     o.width = o.height = side;
     o.filter = renderer::FilterShape::Box;
@@ -110,6 +88,7 @@ class Setting {
     return std::move(*r);
   }
 
+ private:
   vm::Program program_;
   std::optional<renderer::Scene> scene_;
 };
@@ -373,11 +352,9 @@ std::string peers() {
       "luminance of {} (1 is white). Measured: from a picture of {} samples\nof another seed, the "
       "variance that it states for itself taken off, the fewest samples from a quarter of the "
       "stated on, each up to 16, then\nevery second. Stated: a render that ends when it states "
-      "that "
-      "error, as `--error {}` ends it, which asks after 8 samples,\nthen eight times in each "
-      "doubling. "
-      "The mean of {} seeds. The peers were "
-      "measured earlier on the same kind of machine, on spheres of similar\nmaterials in similar "
+      "that error, as `--error {}` ends it, which asks after 8 samples,\nthen eight times in each "
+      "doubling. The mean of {} seeds. The peers were measured earlier on the same kind of "
+      "machine, on spheres of similar\nmaterials in similar "
       "light, not on this very scene.\n\n"
       "| material | a sample | measured | stated | fastest RGB production renderer | leading "
       "spectral research renderer |\n|---|---|---|---|---|---|\n",
@@ -385,18 +362,27 @@ std::string peers() {
   const std::vector<Material> all = materials();
   for (std::size_t i = 0; i < std::size(kPeers); ++i) {
     const Setting s(all[i].script, "sphere");
-    const Rendered reference = s.render_deep(kSide, kReference, 2, kDepth, 99);
+    RenderOptions o;
+    o.max_depth = kDepth;
+    o.samples = kReference;
+    o.threads = 2;
+    o.seed = 99;
+    const Rendered reference = s.render(kSide, o);
+    o.threads = 1;
     const double own = reference.report.rmse * reference.report.rmse;
     double paths = 0, seconds = 0, samples = 0, met_seconds = 0, met_samples = 0;
     for (int seed = 0; seed < kSeeds; ++seed) {
-      const auto [charge, r] =
-          charged([&] { return s.render_to(kSide, kError, kDepth, std::uint64_t(seed)); });
+      o.seed = std::uint64_t(seed);
+      o.samples = renderer::kMostSamples;
+      o.error = kError;
+      const auto [charge, r] = charged([&] { return s.render(kSide, o); });
+      o.error = 0;
       seconds += charge / kSeeds;
       samples += double(r.report.samples) / kSeeds;
       paths += double(r.report.paths) / kSeeds;
       for (int n = std::max(1, r.report.samples / 4);; n += n < 16 ? 1 : 2) {
-        const auto [took, picture] =
-            charged([&] { return s.render_deep(kSide, n, 1, kDepth, std::uint64_t(seed)); });
+        o.samples = n;
+        const auto [took, picture] = charged([&] { return s.render(kSide, o); });
         if (mean_square(picture.film, reference.film) - own > kError * kError) continue;
         met_seconds += took / kSeeds;
         met_samples += double(n) / kSeeds;
