@@ -350,10 +350,10 @@ std::string peers() {
       "One thread, at most {} scattering events, {}x{} pixels: the processor's microseconds a "
       "sample, and samples a pixel and the\nprocessor's seconds to a root mean square error of "
       "luminance of {} (1 is white). Measured: from a picture of {} samples\nof another seed, the "
-      "variance that it states for itself taken off, the fewest samples from a quarter of the "
+      "variance that it states for itself taken off, the fewest even samples from half of the "
       "stated on, each up to 16, then\nevery second. Stated: a render that ends when it states "
-      "that error, as `--error {}` ends it, which asks after 8 samples,\nthen eight times in each "
-      "doubling. The mean of {} seeds. The peers were measured earlier on the same kind of "
+      "that error, as `--error {}` ends it, with more samples where\nthey do more: their mean. The "
+      "mean of {} seeds. The peers were measured earlier on the same kind of "
       "machine, on spheres of similar\nmaterials in similar "
       "light, not on this very scene.\n\n"
       "| material | a sample | measured | stated | fastest RGB production renderer | leading "
@@ -378,9 +378,9 @@ std::string peers() {
       const auto [charge, r] = charged([&] { return s.render(kSide, o); });
       o.error = 0;
       seconds += charge / kSeeds;
-      samples += double(r.report.samples) / kSeeds;
+      samples += r.report.mean_samples / kSeeds;
       paths += double(r.report.paths) / kSeeds;
-      for (int n = std::max(1, r.report.samples / 4);; n += n < 16 ? 1 : 2) {
+      for (int n = std::max(1, int(r.report.mean_samples / 2));; n += n < 16 ? 1 : 2) {
         o.samples = n;
         const auto [took, picture] = charged([&] { return s.render(kSide, o); });
         if (mean_square(picture.film, reference.film) - own > kError * kError) continue;
@@ -389,7 +389,7 @@ std::string peers() {
         break;
       }
     }
-    text += fmt::format("| {} | {:.2f} us | {:.1f}, {:.2f} s | {:.0f}, {:.1f} s | {} | {} |\n",
+    text += fmt::format("| {} | {:.2f} us | {:.1f}, {:.2f} s | {:.1f}, {:.1f} s | {} | {} |\n",
                         all[i].name, seconds / paths * 1e6, met_samples, met_seconds, samples,
                         seconds, kPeers[i].rgb, kPeers[i].spectral);
   }

@@ -5,22 +5,27 @@
 #include <bit>
 #include <cmath>
 
+#include "renderer/samples.h"
+
 namespace mms::renderer {
 namespace {
 
-/// Probes along the edge of a region: 1024 differences know r to about one part in ten.
-constexpr int kRegion = 32;
+/// r is that of the patches that are at most as far away, in patches.
+constexpr int kAround = 1;
 
 /// Bounds of r. Chance and rare bright samples may take it anywhere; 2 is independent samples, 8
 /// the fastest that scrambled nets converge (Owen 1997: variance n^-3).
 constexpr double kSlowest = 1.75, kFastest = 8;
 
-/// Sums over the probes of one region.
-struct Region {
+/// Sums over the probes of one patch.
+struct Sums {
   double independent = 0;       ///< variances as if samples were independent
   double last = 0, before = 0;  ///< (A - B)^2 / 4 of the last two blocks
   double samples = 0;
   int probes = 0;
+  std::uint32_t complete = ~0u;
+  /// The last block that is whole.
+  int block() const { return complete < 4 ? 0 : std::bit_width(complete) - 2; }
 };
 
 double mean(const BlockSums& s) { return double(s.y) / double(s.weight); }
@@ -39,47 +44,69 @@ double quarter_difference(const FilmSums& film, int b, std::size_t probe) {
   return d * d / 4;
 }
 
-/// Variance of a mean of `complete` samples, summed over the region; nothing if it cannot be known.
-double net_variance(const Region& r, int block) {
-  const double ratio =
-      block >= 2 && r.last > 0 ? std::clamp(r.before / r.last, kSlowest, kFastest) : 2;
-  return r.last / (ratio - 1);
-}
-
 }  // namespace
 
-ErrorEstimate::ErrorEstimate(const FilmSums& film, std::uint32_t complete) {
+ErrorEstimate::ErrorEstimate(const FilmSums& film, std::span<const std::uint32_t> complete) {
   const int stride = film.probe_stride();
-  side_ = kRegion * stride;
+  side_ = kTile * stride;
   across_ = (film.width() + side_ - 1) / side_;
   const int down = (film.height() + side_ - 1) / side_;
-  const int block = complete < 8 ? 0 : std::bit_width(complete) - 3;  // the last one that is whole
-  std::vector<Region> regions(std::size_t(across_) * std::size_t(down));
-  const Filter filter(film.filter());
+  const auto patch = [&](int x, int y) { return std::size_t(y / side_ * across_ + x / side_); };
+  std::vector<Sums> sums(std::size_t(across_) * std::size_t(down));
+  auto tile = complete.begin();
+  for (int y = 0; y < film.height(); y += kTile)
+    for (int x = 0; x < film.width(); x += kTile) {
+      Sums& s = sums[patch(x, y)];
+      s.complete = std::min(s.complete, *tile++);
+    }
   std::size_t probe = 0;
   for (int y = 0; y < film.height(); y += stride)
     for (int x = 0; x < film.width(); x += stride, ++probe) {
-      Region& r = regions[std::size_t(y / side_ * across_ + x / side_)];
-      r.independent += film.variance(film.pixel(x, y));
-      r.samples += film.samples_seen(film.pixel(x, y));
-      ++r.probes;
-      if (block < 1) continue;
-      r.last += quarter_difference(film, block, probe);
-      if (block >= 2) r.before += quarter_difference(film, block - 1, probe);
+      Sums& s = sums[patch(x, y)];
+      const PixelSums& p = film.pixel(x, y);
+      s.independent += film.variance(p);
+      s.samples += p.samples;
+      ++s.probes;
+      if (s.block() < 1) continue;
+      s.last += quarter_difference(film, s.block(), probe);
+      if (s.block() >= 2) s.before += quarter_difference(film, s.block() - 1, probe);
     }
   double sum = 0;
-  for (const Region& r : regions) {
-    double variance = r.independent;
-    if (block >= 1) {
-      // Samples past the last whole block count as if they were independent of it.
-      const double whole = block_end(block) * double(r.probes);
-      variance = net_variance(r, block) * std::min(1.0, whole / r.samples);
+  for (int y = 0; y < down; ++y)
+    for (int x = 0; x < across_; ++x) {
+      const Sums& s = sums[std::size_t(y * across_ + x)];
+      double variance = s.independent;
+      if (s.block() >= 1) {
+        // Both differences of patches with as many samples, more or less.
+        double last = 0, before = 0;
+        for (int j = std::max(0, y - kAround); j <= std::min(down - 1, y + kAround); ++j)
+          for (int i = std::max(0, x - kAround); i <= std::min(across_ - 1, x + kAround); ++i) {
+            const Sums& near = sums[std::size_t(j * across_ + i)];
+            if (near.block() != s.block()) continue;
+            last += near.last;
+            before += near.before;
+          }
+        const double ratio =
+            s.block() >= 2 && last > 0 ? std::clamp(before / last, kSlowest, kFastest) : 2;
+        // Samples past the last whole block count as if they were independent of it.
+        const double whole = block_end(s.block()) * double(s.probes);
+        variance = s.last / (ratio - 1) * std::min(1.0, whole / s.samples);
+      }
+      patches_.push_back({variance / s.probes, s.samples / s.probes, s.probes});
+      factors_.push_back(s.independent > 0 ? variance / s.independent : 1);
+      sum += variance;
     }
-    factors_.push_back(r.independent > 0 ? variance / r.independent : 1);
-    sum += variance;
-  }
   rmse_ = std::sqrt(sum / double(std::max<std::size_t>(1, probe)));
 }
+
+ErrorEstimate::ErrorEstimate(const FilmSums& film, std::uint32_t complete)
+    : ErrorEstimate(film,
+                    std::vector<std::uint32_t>(std::size_t((film.width() + kTile - 1) / kTile) *
+                                                   std::size_t((film.height() + kTile - 1) / kTile),
+                                               complete)) {}
+
+ErrorEstimate::ErrorEstimate(const PartialFilm& film)
+    : ErrorEstimate(film.sums(), film.complete()) {}
 
 double ErrorEstimate::factor(int x, int y) const {
   return factors_[std::size_t(y / side_ * across_ + x / side_)];

@@ -11,30 +11,51 @@
 ///     E (A - B)^2 / 4 = v(n) - v(2n),
 /// whatever the correlation of A and B. Of v(n) = r v(2n) the factor r is found from the same
 /// difference one block earlier: it is 2 for independent samples and up to 8 for nets and smooth
-/// functions. Both sums are over the pixels of a region, since one pixel knows too little.
+/// functions. The differences are summed over the pixels of a patch, whose tiles have much the same
+/// samples, and r is that of the patches around, since one pixel knows too little.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "renderer/film.h"
 
 namespace mms::renderer {
 
+struct PartialFilm;  // renderer/samples.h
+
 class ErrorEstimate {
  public:
-  /// Every sample with a number below `complete` has been added everywhere. Where that is below 8
-  /// the samples are taken to be independent, which errs upwards.
+  /// A square of `patch_side` pixels, or what of it lies in the picture.
+  struct Patch {
+    double variance = 0;  ///< of a pixel's mean luminance, on average; 0 below 2 samples
+    double samples = 0;   ///< of a pixel
+    int probes = 0;       ///< pixels that were looked at
+    bool operator==(const Patch&) const = default;
+  };
+
+  /// For each tile, row by row, the number below which all samples are there. Where that is below
+  /// 4 the samples are taken to be independent, which errs upwards.
+  ErrorEstimate(const FilmSums& film, std::span<const std::uint32_t> complete);
+  /// The same number everywhere.
   ErrorEstimate(const FilmSums& film, std::uint32_t complete);
+  explicit ErrorEstimate(const PartialFilm& film);
 
   /// Root of the mean variance of a pixel's linear luminance over the picture; 0 below 2 samples.
   double rmse() const { return rmse_; }
+  /// Row by row.
+  std::span<const Patch> patches() const { return patches_; }
+  int patches_across() const { return across_; }
+  /// A multiple of kTile.
+  int patch_side() const { return side_; }
   /// What the variance of pixel (x, y) by independent samples is to be multiplied by.
   double factor(int x, int y) const;
   /// Applies `factor` to the variances of a developed picture.
   void correct(Film& film) const;
 
  private:
-  int side_ = 1, across_ = 1;  ///< of a region in pixels; regions in a row
+  int side_ = 1, across_ = 1;
+  std::vector<Patch> patches_;
   std::vector<double> factors_;
   double rmse_ = 0;
 };

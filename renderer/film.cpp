@@ -50,7 +50,7 @@ FilmSums::FilmSums(int width, int height, FilterShape filter, Rect rect)
       height_(height),
       stride_(stride_of(width, height)),
       shape_(filter),
-      filter_(filter) {
+      filter_(&filter_of(filter)) {
   restart(rect);
 }
 
@@ -97,12 +97,12 @@ SampleFate FilmSums::add(const FilmSample& s) {
 
 void FilmSums::spread(Int128 y, Int128 square, const Int128 (&xyz)[3], const FilmSample& s) {
   std::vector<BlockSums>& block = open_block(block_of(s.number));
-  const Reach columns = reach(s.x, filter_.radius(), rect_.x0, rect_.x1);
-  const Reach rows = reach(s.y, filter_.radius(), rect_.y0, rect_.y1);
+  const Reach columns = reach(s.x, filter_->radius(), rect_.x0, rect_.x1);
+  const Reach rows = reach(s.y, filter_->radius(), rect_.y0, rect_.y1);
   for (int row = rows.begin; row < rows.end; ++row) {
-    const std::int64_t vertical = filter_.weight(std::abs(row + 0.5 - s.y));
+    const std::int64_t vertical = filter_->weight(std::abs(row + 0.5 - s.y));
     for (int column = columns.begin; column < columns.end; ++column) {
-      const std::int64_t w = vertical * filter_.weight(std::abs(column + 0.5 - s.x));
+      const std::int64_t w = vertical * filter_->weight(std::abs(column + 0.5 - s.x));
       PixelSums& p = pixels_[index(column, row)];
       for (int i = 0; i < 3; ++i) p.xyz[i] += xyz[i] * w;
       p.luminance_square += square * w;
@@ -146,17 +146,26 @@ void FilmSums::merge(const FilmSums& part) {
 }
 
 double FilmSums::samples_seen(const PixelSums& p) const {
-  return double(p.weight) / kWeightUnit / filter_.integral();
+  return double(p.weight) / kWeightUnit / filter_->integral();
+}
+
+double FilmSums::samples_worth(const PixelSums& p) const {
+  return samples_seen(p) * filter_->sharing();
+}
+
+double FilmSums::mean(const PixelSums& p, int i) {
+  return double(p.xyz[i]) / kSumUnit / (double(p.weight) / kWeightUnit);
+}
+
+double FilmSums::scatter(const PixelSums& p) const {
+  if (p.weight <= 0) return 0;
+  const double weight = double(p.weight) / kWeightUnit, y = mean(p, 1);
+  return std::max(0.0, double(p.luminance_square) / kSumUnit / weight - y * y);
 }
 
 double FilmSums::variance(const PixelSums& p) const {
-  if (p.weight <= 0) return 0;
-  const double weight = double(p.weight) / kWeightUnit;
-  const double mean = double(p.xyz[1]) / kSumUnit / weight;
-  const double scatter = double(p.luminance_square) / kSumUnit / weight - mean * mean;
-  // A pixel makes use of the samples that it shares with its neighbours, too.
-  const double n = samples_seen(p) * filter_.sharing();
-  return n > 1 && p.samples > 1 ? std::max(0.0, scatter) / (n - 1) : 0;
+  const double n = samples_worth(p);
+  return n > 1 && p.samples > 1 ? scatter(p) / (n - 1) : 0;
 }
 
 Film FilmSums::develop() const {
@@ -166,10 +175,8 @@ Film FilmSums::develop() const {
   film.samples.reserve(pixels_.size());
   film.dropped.reserve(pixels_.size());
   for (const PixelSums& p : pixels_) {
-    const double weight = p.weight > 0 ? double(p.weight) / kWeightUnit : 1;
-    std::array<double, 3> mean{};
-    for (int i = 0; i < 3; ++i) mean[i] = double(p.xyz[i]) / kSumUnit / weight;
-    film.xyz.push_back(mean);
+    film.xyz.push_back(p.weight > 0 ? std::array{mean(p, 0), mean(p, 1), mean(p, 2)}
+                                    : std::array<double, 3>{});
     film.variance.push_back(variance(p));
     film.samples.push_back(p.samples);
     film.dropped.push_back(p.dropped);

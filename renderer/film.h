@@ -36,6 +36,9 @@ inline constexpr double kLargestSample = 0x1p32;
 /// units of 2^-64 is 2^102 and leaves room for 2^25 samples.
 inline constexpr double kLargestForVariance = 0x1p19;
 
+/// Edge of the squares that a picture is worked on in, in pixels.
+inline constexpr int kTile = 16;
+
 /// Pixels [x0, x1) x [y0, y1).
 struct Rect {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
@@ -63,11 +66,11 @@ struct BlockSums {
   bool operator==(const BlockSums&) const = default;
 };
 
-/// The block that sample `number` belongs to: [0, 4), [4, 8), [8, 16), [16, 32) ... The blocks
-/// before one have together as many samples as it has, and like it are a net of the sequence.
-constexpr int block_of(std::uint32_t number) { return number < 4 ? 0 : 30 - __builtin_clz(number); }
+/// The block that sample `number` belongs to: [0, 2), [2, 4), [4, 8), [8, 16) ... The blocks before
+/// one have together as many samples as it has, and like it are a net of the sequence.
+constexpr int block_of(std::uint32_t number) { return number < 2 ? 0 : 31 - __builtin_clz(number); }
 /// First number after block `block`.
-constexpr std::uint32_t block_end(int block) { return 4u << block; }
+constexpr std::uint32_t block_end(int block) { return 2u << block; }
 
 /// Sums over a picture or over a part of it.
 class FilmSums {
@@ -94,6 +97,13 @@ class FilmSums {
 
   /// How many samples the filter lets the pixel see: about those that fell into it.
   double samples_seen(const PixelSums& p) const;
+  /// As many independent samples would know its mean as well: it makes use of those that it shares
+  /// with its neighbours, too.
+  double samples_worth(const PixelSums& p) const;
+  /// Of one value; \pre p.weight > 0
+  static double mean(const PixelSums& p, int i);
+  /// Mean of Y^2 less the square of the mean of Y; 0 where there is no sample.
+  double scatter(const PixelSums& p) const;
   /// Variance of the mean luminance, were the samples independent; 0 below two samples.
   double variance(const PixelSums& p) const;
 
@@ -123,7 +133,7 @@ class FilmSums {
 
   int width_, height_, stride_;
   FilterShape shape_;
-  Filter filter_;
+  const Filter* filter_;
   Rect rect_;
   int first_across_ = 0, first_down_ = 0, across_ = 0, down_ = 0;  ///< probes in the rect
   std::vector<PixelSums> pixels_;

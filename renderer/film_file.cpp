@@ -25,7 +25,7 @@ static_assert(sizeof(PixelSums) == 80 && std::is_trivially_copyable_v<PixelSums>
 
 constexpr std::string_view kFilmMagic = "\x89mmf\r\n\x1a\n";
 /// Goes up too where a sample of a number becomes another: films of both would not add up.
-constexpr std::uint32_t kFilmVersion = 10;
+constexpr std::uint32_t kFilmVersion = 11;
 constexpr std::size_t kHashAt = 12, kBodyAt = 20;
 constexpr int kLargestSide = 32768;
 
@@ -116,25 +116,44 @@ bool get_samples(Reader& in, SampleSet& set) {
   return in.good();
 }
 
-bool get_film(Reader& in, PartialFilm& film) {
-  for (SampleSet& s : film.done)
-    if (!get_samples(in, s)) return false;
-  std::vector<PixelSums> pixels(film.sums.pixels().size());
+void put_sums(std::string& out, const FilmSums& sums) {
+  put(out, sums.pixels().data(), sums.pixels().size_bytes());
+  put(out, std::uint32_t(sums.blocks()));
+  for (int b = 0; b < sums.blocks(); ++b) {
+    put(out, std::uint8_t(!sums.block(b).empty()));
+    for (const BlockSums& s : sums.block(b)) {
+      put(out, s.y);
+      put(out, s.weight);
+    }
+  }
+}
+
+bool get_sums(Reader& in, FilmSums& sums) {
+  std::vector<PixelSums> pixels(sums.pixels().size());
   in.get(pixels.data(), pixels.size() * sizeof(PixelSums));
   const auto blocks = in.get<std::uint32_t>();
   if (!in.good() || blocks > 32) return false;
   std::vector<std::vector<BlockSums>> all(blocks);
   for (auto& block : all) {
     if (in.get<std::uint8_t>() == 0) continue;
-    block.resize(film.sums.probes());
+    block.resize(sums.probes());
     for (BlockSums& b : block) {
       b.y = in.get<Int128>();
       b.weight = in.get<std::int64_t>();
     }
   }
   if (!in.good()) return false;
-  film.sums.restore(std::move(pixels), std::move(all));
+  sums.restore(std::move(pixels), std::move(all));
   return true;
+}
+
+bool get_film(Reader& in, PartialFilm& film) {
+  for (SampleSet& s : film.done)
+    if (!get_samples(in, s)) return false;
+  film.wanted.resize(in.get<std::uint8_t>() != 0 ? film.done.size() : 0);
+  in.get(film.wanted.data(), film.wanted.size() * sizeof film.wanted[0]);
+  return std::all_of(film.parts.begin(), film.parts.end(),
+                     [&](FilmSums& part) { return get_sums(in, part); });
 }
 
 /// Calls `f` with each array of a value for every pixel.
@@ -182,15 +201,9 @@ std::string contents(const FilmKey& key, const PartialFilm& film, const Layers* 
   put(out, std::uint64_t(0));  // of the hash
   put_key(out, key);
   for (const SampleSet& s : film.done) put_samples(out, s);
-  put(out, film.sums.pixels().data(), film.sums.pixels().size_bytes());
-  put(out, std::uint32_t(film.sums.blocks()));
-  for (int b = 0; b < film.sums.blocks(); ++b) {
-    put(out, std::uint8_t(!film.sums.block(b).empty()));
-    for (const BlockSums& s : film.sums.block(b)) {
-      put(out, s.y);
-      put(out, s.weight);
-    }
-  }
+  put(out, std::uint8_t(!film.wanted.empty()));
+  put(out, film.wanted.data(), film.wanted.size() * sizeof(std::uint32_t));
+  for (const FilmSums& part : film.parts) put_sums(out, part);
   put(out, std::uint8_t(layers != nullptr));
   if (layers) put_layers(out, *layers);
   const std::uint64_t hash = hash_bytes(std::span(out).subspan(kBodyAt));
@@ -260,7 +273,7 @@ Result<StoredFilm> load_film(const std::string& path) {
   if (!get_film(in, stored.film)) return damaged;
   if (in.get<std::uint8_t>() != 0) {
     Layers layers;
-    if (!get_layers(in, stored.film.sums.pixels().size(), layers)) return damaged;
+    if (!get_layers(in, std::size_t(key->width) * std::size_t(key->height), layers)) return damaged;
     stored.layers = std::make_shared<const Layers>(std::move(layers));
   }
   if (!in.good() || in.left() > 0) return damaged;

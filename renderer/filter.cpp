@@ -62,4 +62,10 @@ Filter::Filter(FilterShape shape) : radius_(kFilters[int(shape)].radius) {
   sharing_ = integral_ * integral_ / (along2 * along2);
 }
 
+const Filter& filter_of(FilterShape shape) {
+  static const Filter all[] = {Filter(FilterShape::Box), Filter(FilterShape::Gaussian),
+                               Filter(FilterShape::BlackmanHarris)};
+  return all[std::size_t(shape)];
+}
+
 }  // namespace mms::renderer

@@ -52,4 +52,7 @@ class Filter {
   double radius_, scale_, integral_, sharing_;
 };
 
+/// Made once.
+const Filter& filter_of(FilterShape shape);
+
 }  // namespace mms::renderer

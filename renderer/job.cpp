@@ -6,6 +6,7 @@
 #include <thread>
 #include <tuple>
 
+#include "renderer/adaptive.h"
 #include "renderer/error.h"
 #include "renderer/prepare.h"
 
@@ -15,31 +16,13 @@ namespace {
 /// Between two estimates of the error for those who watch: each takes some milliseconds.
 constexpr double kSecondsOfError = 1;
 
-/// The error is asked for the first time after as many samples: one difference is known then, and
-/// it is taken as of independent samples, which errs upwards.
-constexpr std::uint32_t kFirstAsked = 8;
-
 /// Samples that were dropped of which it is found out why.
 constexpr std::size_t kExplained = 64;
-
-/// Where the error is asked for again.
-std::uint32_t asked_after(std::uint32_t samples) {
-  if (samples < kFirstAsked) return kFirstAsked;
-  const std::uint32_t octave = std::uint32_t(1) << (31 - __builtin_clz(samples));
-  return samples + octave / kPartsOfOctave;
-}
 
 /// Where scripts run many paths are worked on together, for full batches; but every thread
 /// is to have some turns of a picture.
 int chunks_at_once(std::int64_t tiles, int threads) {
   return int(std::clamp<std::int64_t>(tiles / (8 * threads), 1, 8));
-}
-
-/// `tile`, and the pixels around it that its samples reach.
-Rect reached(const FilmSums& film, Rect tile) {
-  const int margin = int(std::ceil(Filter(film.filter()).radius() - 0.5));
-  return {std::max(0, tile.x0 - margin), std::max(0, tile.y0 - margin),
-          std::min(film.width(), tile.x1 + margin), std::min(film.height(), tile.y1 + margin)};
 }
 
 }  // namespace
@@ -50,24 +33,22 @@ Job::Job(const World& world, const RenderOptions& options)
       film_(options.begin_with
                 ? std::make_shared<PartialFilm>(*options.begin_with)
                 : std::make_shared<PartialFilm>(options.width, options.height, options.filter)) {
-  first_pass_ = pass_of(std::uint32_t(options.first_sample));
-  const int last_pass = pass_of(std::uint32_t(options.samples - 1));
-  chunks_ = std::int64_t(last_pass + 1 - first_pass_) * std::int64_t(film_->done.size());
-  for (int t = 0; t < int(film_->done.size()); ++t) {
+  next_pass_ = pass_of(std::uint32_t(options.first_sample));
+  for (int t = 0; t < film_->tiles(); ++t) {
     SampleSet all = film_->done[t];
     all.add({std::uint32_t(options.first_sample), std::uint32_t(options.samples)});
     const std::uint64_t there = film_->done[t].count(), area = film_->tile(t).area();
     paths_before_ += there * area;
     paths_asked_ += (all.count() - there) * area;
   }
-  round_end_ = options.error > 0 ? 0 : chunks_;
 }
 
 Rendered Job::run() {
   begin_ = Clock::now();
   const int machine = int(std::max(1u, std::thread::hardware_concurrency()));
   const int wanted = options_.threads > 0 ? options_.threads : machine;
-  const int threads = int(std::min<std::int64_t>(wanted, chunks_));
+  const int passes = pass_of(std::uint32_t(options_.samples - 1)) + 1 - next_pass_;
+  const int threads = int(std::min<std::int64_t>(wanted, std::int64_t(passes) * film_->tiles()));
   {
     std::vector<std::jthread> workers;
     running_ = threads_ = threads;
@@ -81,7 +62,7 @@ Rendered Job::run() {
 
 /// Time ends nothing before every tile has been handed out once: a picture has a sample everywhere.
 bool Job::out_of_time() const {
-  return options_.seconds > 0 && next_chunk_ >= std::int64_t(film_->done.size()) &&
+  return options_.seconds > 0 && handed_out_ >= std::uint64_t(film_->tiles()) &&
          seconds() >= options_.seconds;
 }
 
@@ -90,29 +71,24 @@ bool Job::ended() const {
          (options_.stop && options_.stop->load(std::memory_order_relaxed));
 }
 
-/// The next tiles and passes with samples that are missing, or nothing. Waits at the end of a
-/// round.
+/// The next tiles and passes with samples that are missing, or nothing. Where a picture ends by its
+/// error it waits at the end of a round.
 std::vector<Job::Chunk> Job::next() {
   std::unique_lock lock(schedule_lock_);
   std::vector<Chunk> taken;
   while (taken.empty()) {
     if (ended()) return {};
-    const std::int64_t tiles = std::int64_t(film_->done.size());
-    const int most = !world_.compiled.executable() ? 1 : chunks_at_once(tiles, threads_);
-    while (next_chunk_ < round_end_ && int(taken.size()) < most) {
-      const std::int64_t number = next_chunk_++;
+    const int most = !world_.compiled.executable() ? 1 : chunks_at_once(film_->tiles(), threads_);
+    while (next_chunk_ < round_.size() && int(taken.size()) < most) {
+      taken.push_back(round_[next_chunk_++]);
       ++in_flight_;
-      const SampleSet::Range pass = pass_range(first_pass_ + int(number / tiles));
-      taken.push_back({int(number % tiles),
-                       {std::max(pass.first, std::uint32_t(options_.first_sample)),
-                        std::min(pass.second, std::uint32_t(options_.samples))}});
+      ++handed_out_;
     }
     if (!taken.empty()) break;
-    if (next_chunk_ >= chunks_) return {};
-    if (in_flight_ == 0)
-      begin_round();
-    else
+    if (options_.error > 0 && in_flight_ > 0)
       round_over_.wait(lock);
+    else if (!begin_round())
+      return {};
   }
   return taken;
 }
@@ -123,24 +99,51 @@ void Job::done(int chunks) {
   if (in_flight_ == 0) round_over_.notify_all();
 }
 
-/// All threads have come to the same sample: the error is asked for here and nowhere else, so the
-/// picture does not depend on the threads. \pre schedule_lock_ is held
-void Job::begin_round() {
-  const std::int64_t tiles = std::int64_t(film_->done.size());
-  const std::uint32_t complete =
-      next_chunk_ == 0 ? std::uint32_t(options_.first_sample)
-                       : pass_range(first_pass_ + int(next_chunk_ / tiles) - 1).second;
-  if (complete >= kFirstAsked) {
-    const std::scoped_lock lock(film_lock_);
-    if (ErrorEstimate(film_->sums, film_->complete()).rmse() <= options_.error) {
-      good_ = true;
-      round_over_.notify_all();
-      return;
-    }
-  }
-  const int pass = pass_of(asked_after(complete) - 1);
-  round_end_ = std::min(chunks_, (pass + 1 - first_pass_) * tiles);
+/// What is to be done next, if anything is. Where a picture ends by its error all samples that were
+/// wanted are there, so neither the picture nor where it ends depends on the threads.
+/// \pre schedule_lock_ is held
+bool Job::begin_round() {
+  round_.clear();
+  next_chunk_ = 0;
+  if (options_.error > 0)
+    begin_wanted();
+  else
+    begin_pass();
   round_over_.notify_all();
+  return !round_.empty();
+}
+
+/// One pass over all tiles.
+void Job::begin_pass() {
+  const SampleSet::Range pass = pass_range(next_pass_++);
+  const std::uint32_t first = std::max(pass.first, std::uint32_t(options_.first_sample)),
+                      last = std::min(pass.second, std::uint32_t(options_.samples));
+  for (int t = 0; first < last && t < film_->tiles(); ++t) round_.push_back({t, {first, last}});
+}
+
+/// As many samples of each tile as the error is worth. What an earlier render was at comes first.
+void Job::begin_wanted() {
+  const std::scoped_lock lock(film_lock_);
+  const auto begin = std::uint32_t(options_.first_sample), end = std::uint32_t(options_.samples);
+  const auto hand_out = [&] {
+    for (int t = 0; t < int(film_->wanted.size()); ++t) {
+      const std::uint32_t last = std::min(film_->wanted[t], end);
+      for (std::uint32_t first = film_->done[t].missing_from(begin); first < last;) {
+        const std::uint32_t next = std::min(last, pass_range(pass_of(first)).second);
+        round_.push_back({t, {first, next}});
+        first = next;
+      }
+    }
+    // All tiles have their first samples before one has its next.
+    std::stable_sort(round_.begin(), round_.end(), [](const Chunk& a, const Chunk& b) {
+      return a.samples.first < b.samples.first;
+    });
+  };
+  hand_out();
+  if (!round_.empty()) return;
+  film_->wanted = next_samples(*film_, options_.error, begin, end);
+  good_ = film_->wanted.empty() && ErrorEstimate(*film_).rmse() <= options_.error;
+  hand_out();
 }
 
 bool Job::was_there(int tile, std::uint32_t sample) const {
@@ -153,7 +156,7 @@ void Job::work() {
   std::vector<PixelSample> wanted;
   std::vector<FilmSample> samples;
   std::vector<std::size_t> ends;  // of each chunk's samples
-  FilmSums part(options_.width, options_.height, film_->sums.filter(), {});
+  FilmSums part(options_.width, options_.height, options_.filter, {});
   std::uint64_t faults = 0;
   for (std::vector<Chunk> chunks = next(); !chunks.empty(); chunks = next()) {
     wanted.clear();
@@ -169,7 +172,7 @@ void Job::work() {
     samples.resize(wanted.size());
     integrator.trace(wanted, samples);
     for (std::size_t i = 0, first = 0; i < chunks.size(); first = ends[i++]) {
-      part.restart(reached(film_->sums, film_->tile(chunks[i].tile)));
+      part.restart(film_->parts[std::size_t(chunks[i].tile)].rect());
       add(chunks[i], part, std::span(samples).subspan(first, ends[i] - first));
     }
     paths_done_ += samples.size();
@@ -197,7 +200,7 @@ void Job::add(const Chunk& chunk, FilmSums& part, std::span<const FilmSample> sa
   }
   const std::scoped_lock lock(film_lock_);
   report_.cut += cut;
-  film_->sums.merge(part);
+  film_->parts[std::size_t(chunk.tile)].merge(part);
   film_->done[chunk.tile].add(chunk.samples);
   for (const auto& [sample, fate] : dropped) drop(sample, fate);
 }
@@ -246,7 +249,7 @@ void Job::show_progress() {
   double fraction = paths_asked_ > 0 ? double(done) / double(paths_asked_) : 1;
   if (now - error_shown_at_ >= kSecondsOfError) {
     const std::scoped_lock lock(film_lock_);
-    shown_error_ = ErrorEstimate(film_->sums, film_->complete()).rmse();
+    shown_error_ = ErrorEstimate(*film_).rmse();
     error_shown_at_ = seconds();
   }
   double left = fraction > 0 ? now * (1 - fraction) / fraction : 0;
@@ -296,12 +299,13 @@ Rendered Job::finish() {
   if (report_.script_runs > 0)
     report_.batch_fill =
         double(report_.script_points) / double(report_.script_runs) / world_.compiled.width();
-  std::uint32_t fewest = ~0u;
-  for (const PixelSums& p : film_->sums.pixels()) fewest = std::min(fewest, p.samples);
-  report_.samples = int(fewest);
+  report_.samples = int(film_->fewest_samples());
+  std::uint64_t all = 0;
+  for (int t = 0; t < film_->tiles(); ++t) all += film_->done[t].count() * film_->tile(t).area();
+  report_.mean_samples = double(all) / options_.width / options_.height;
   report_.error_reached = good_;
   report_.stopped = options_.stop && options_.stop->load() && paths_done_ < paths_asked_ && !good_;
-  report_.rmse = ErrorEstimate(film_->sums, film_->complete()).rmse();
+  report_.rmse = ErrorEstimate(*film_).rmse();
   for (const auto& [where, lanes] : faults_)
     report_.faults.push_back({place(world_.compiled.program(), where.source, where.line),
                               cause_text(where.cause), lanes});

@@ -39,7 +39,9 @@ class Job {
   bool was_there(int tile, std::uint32_t sample) const;
   std::vector<Chunk> next();
   void done(int chunks);
-  void begin_round();
+  bool begin_round();
+  void begin_pass();
+  void begin_wanted();
   void add(const Chunk& chunk, FilmSums& part, std::span<const FilmSample> samples);
   void drop(const PixelSample& s, SampleFate fate);
   bool ended() const;        ///< \pre schedule_lock_ is held
@@ -59,13 +61,13 @@ class Job {
   std::mutex film_lock_;  ///< film, what is in it, and what was dropped
   std::shared_ptr<PartialFilm> film_;
 
-  std::mutex schedule_lock_;  ///< the three below
+  std::mutex schedule_lock_;  ///< what is below, to the line
   std::condition_variable round_over_;
-  std::int64_t next_chunk_ = 0, round_end_ = 0;
+  std::vector<Chunk> round_;  ///< handed out before the next is known
+  std::size_t next_chunk_ = 0;
+  std::uint64_t handed_out_ = 0;  ///< chunks
   int in_flight_ = 0;
-
-  std::int64_t chunks_ = 0;
-  int first_pass_ = 0;
+  int next_pass_ = 0;  ///< of a picture that does not end by its error
 
   std::atomic<std::uint64_t> paths_done_{0}, fault_lanes_{0};
   std::uint64_t paths_asked_ = 0, paths_before_ = 0;

@@ -2,8 +2,10 @@
 #include "renderer/samples.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
+#include <cmath>
 
 #include "renderer/error.h"
 
@@ -17,6 +19,31 @@ constexpr std::uint32_t kFirstOfFull = kPartsOfOctave * kSamplesOfPass;
 /// sample each, and each octave doubles that.
 constexpr int kFirstPart = std::bit_width(kPartsOfOctave);
 constexpr int kFirstFullPass = kFirstPart + int(kPartsOfOctave) * std::countr_zero(kSamplesOfPass);
+
+/// What a pixel gets from the tiles around it, each divided by its number of samples.
+class WeighedPixel {
+ public:
+  void add(const FilmSums& part, int x, int y, double samples) {
+    const PixelSums& p = part.pixel(x, y);
+    if (p.weight <= 0) return;
+    ++parts_;
+    const double weight = double(p.weight) / samples;
+    weight_ += weight;
+    squares_ += weight * weight / part.samples_worth(p);
+    for (int i = 0; i < 3; ++i) xyz_[i] += FilmSums::mean(p, i) * weight;
+  }
+  int parts() const { return parts_; }
+  std::array<double, 3> mean() const {
+    return {xyz_[0] / weight_, xyz_[1] / weight_, xyz_[2] / weight_};
+  }
+  /// Over that of one independent sample.
+  double variance() const { return squares_ / (weight_ * weight_); }
+
+ private:
+  int parts_ = 0;
+  double weight_ = 0, squares_ = 0;
+  std::array<double, 3> xyz_{};
+};
 
 }  // namespace
 
@@ -44,8 +71,10 @@ bool SampleSet::meets(const SampleSet& other) const {
   return false;
 }
 
-std::uint32_t SampleSet::prefix() const {
-  return ranges_.empty() || ranges_[0].first > 0 ? 0 : ranges_[0].second;
+std::uint32_t SampleSet::missing_from(std::uint32_t first) const {
+  for (const Range& r : ranges_)
+    if (r.first <= first && first < r.second) return r.second;
+  return first;
 }
 
 std::uint64_t SampleSet::count() const {
@@ -54,20 +83,45 @@ std::uint64_t SampleSet::count() const {
   return n;
 }
 
-PartialFilm::PartialFilm(int width, int height, FilterShape filter) : sums(width, height, filter) {
-  const int down = (height + kTile - 1) / kTile;
-  done.resize(std::size_t(tiles_across()) * std::size_t(down));
+PartialFilm::PartialFilm(int width, int height, FilterShape filter) {
+  const int across = (width + kTile - 1) / kTile, down = (height + kTile - 1) / kTile;
+  const int margin = int(std::ceil(filter_of(filter).radius() - 0.5));
+  for (int t = 0; t < across * down; ++t) {
+    const int x = t % across * kTile, y = t / across * kTile;
+    parts.emplace_back(
+        width, height, filter,
+        Rect{std::max(0, x - margin), std::max(0, y - margin), std::min(width, x + kTile + margin),
+             std::min(height, y + kTile + margin)});
+  }
+  done.resize(parts.size());
 }
 
 Rect PartialFilm::tile(int t) const {
   const int x = t % tiles_across() * kTile, y = t / tiles_across() * kTile;
-  return {x, y, std::min(x + kTile, sums.width()), std::min(y + kTile, sums.height())};
+  return {x, y, std::min(x + kTile, width()), std::min(y + kTile, height())};
 }
 
-std::uint32_t PartialFilm::complete() const {
-  std::uint32_t least = ~0u;
-  for (const SampleSet& s : done) least = std::min(least, s.prefix());
-  return least;
+std::vector<std::uint32_t> PartialFilm::complete() const {
+  std::vector<std::uint32_t> all;
+  for (const SampleSet& s : done) all.push_back(s.missing_from(0));
+  return all;
+}
+
+std::uint32_t PartialFilm::fewest_samples() const {
+  std::uint32_t fewest = ~0u;
+  for (int t = 0; t < tiles(); ++t) {
+    const Rect r = tile(t);
+    for (int y = r.y0; y < r.y1; ++y)
+      for (int x = r.x0; x < r.x1; ++x)
+        fewest = std::min(fewest, parts[std::size_t(t)].pixel(x, y).samples);
+  }
+  return fewest;
+}
+
+FilmSums PartialFilm::sums() const {
+  FilmSums all(width(), height(), parts[0].filter());
+  for (const FilmSums& part : parts) all.merge(part);
+  return all;
 }
 
 bool PartialFilm::meets(const PartialFilm& other) const {
@@ -78,15 +132,44 @@ bool PartialFilm::meets(const PartialFilm& other) const {
 
 void PartialFilm::add(const PartialFilm& other) {
   assert(!meets(other));
-  sums.merge(other.sums);
-  for (std::size_t t = 0; t < done.size(); ++t)
+  wanted.clear();
+  for (std::size_t t = 0; t < done.size(); ++t) {
+    parts[t].merge(other.parts[t]);
     for (const SampleSet::Range& r : other.done[t].ranges()) done[t].add(r);
+  }
 }
 
 Film PartialFilm::develop() const {
-  Film film = sums.develop();
-  ErrorEstimate(sums, complete()).correct(film);
+  const FilmSums all = sums();
+  Film film = all.develop();
+  ErrorEstimate(all, complete()).correct(film);
+  weigh_borders(all, film);
   return film;
+}
+
+/// Where tiles meet that have different numbers of samples, a sum of both would reach further into
+/// the one that has more: each part counts by its samples here.
+void PartialFilm::weigh_borders(const FilmSums& all, Film& film) const {
+  const int across = tiles_across(), down = tiles() / across;
+  for (int t = 0; t < tiles(); ++t) {
+    std::vector<int> near;  // and itself
+    for (int y = std::max(0, t / across - 1); y < std::min(down, t / across + 2); ++y)
+      for (int x = std::max(0, t % across - 1); x < std::min(across, t % across + 2); ++x)
+        near.push_back(y * across + x);
+    const auto as_many = [&](int n) { return done[n].count() == done[t].count(); };
+    if (std::all_of(near.begin(), near.end(), as_many)) continue;
+    const Rect r = tile(t);
+    for (int y = r.y0; y < r.y1; ++y)
+      for (int x = r.x0; x < r.x1; ++x) {
+        WeighedPixel pixel;
+        for (const int n : near)
+          if (parts[n].rect().has(x, y)) pixel.add(parts[n], x, y, double(done[n].count()));
+        if (pixel.parts() < 2) continue;
+        const std::size_t i = std::size_t(y) * std::size_t(width()) + std::size_t(x);
+        film.xyz[i] = pixel.mean();
+        film.variance[i] *= pixel.variance() * all.samples_worth(all.pixel(x, y));
+      }
+  }
 }
 
 SampleSet::Range pass_range(int pass) {

@@ -21,8 +21,8 @@ class SampleSet {
   bool has(std::uint32_t number) const;
   /// Whether some number is in both.
   bool meets(const SampleSet& other) const;
-  /// The first number that is not in it.
-  std::uint32_t prefix() const;
+  /// The first number from `first` on that is not in it.
+  std::uint32_t missing_from(std::uint32_t first) const;
   std::uint64_t count() const;
   const std::vector<Range>& ranges() const { return ranges_; }
   bool operator==(const SampleSet&) const = default;
@@ -31,34 +31,45 @@ class SampleSet {
   std::vector<Range> ranges_;
 };
 
-/// Edge of the squares that a picture is worked on in, in pixels.
-inline constexpr int kTile = 16;
-
-/// A picture under way, and what is in it: for each tile, row by row, the numbers of the samples.
+/// A picture under way. Each tile, row by row, has sums of its own over all pixels that its samples
+/// reach: so tiles may have different numbers of samples, and where they meet a pixel weighs what
+/// it gets from each by the samples that there are, as the filter asks for.
 struct PartialFilm {
-  FilmSums sums;
-  std::vector<SampleSet> done;
+  std::vector<FilmSums> parts;
+  std::vector<SampleSet> done;  ///< the numbers of each tile's samples
+  /// How many samples each tile is to have before the error is asked for again; else empty. Where
+  /// a render goes on, it first comes to the same point (renderer/adaptive.h).
+  std::vector<std::uint32_t> wanted = {};
 
   PartialFilm(int width, int height, FilterShape filter);
-  int tiles_across() const { return (sums.width() + kTile - 1) / kTile; }
+  int width() const { return parts[0].width(); }
+  int height() const { return parts[0].height(); }
+  int tiles() const { return int(parts.size()); }
+  int tiles_across() const { return (width() + kTile - 1) / kTile; }
   /// The pixels of tile `t`.
   Rect tile(int t) const;
-  /// All samples with smaller numbers are there everywhere.
-  std::uint32_t complete() const;
+  /// Of each tile, the number below which all samples are there.
+  std::vector<std::uint32_t> complete() const;
+  /// Of the samples that fell into a pixel, the smallest number.
+  std::uint32_t fewest_samples() const;
+  /// All parts in one.
+  FilmSums sums() const;
   /// Whether some sample is in both; then they must not be added up.
   bool meets(const PartialFilm& other) const;
   /// \pre same size and filter, and `!meets(other)`.
   void add(const PartialFilm& other);
   /// The picture, with variances that know of the sequence (renderer/error.h).
   Film develop() const;
+
+ private:
+  void weigh_borders(const FilmSums& all, Film& film) const;
 };
 
 /// Doublings of the samples are worked on, and looked at, in so many parts.
-inline constexpr std::uint32_t kPartsOfOctave = 8;
+inline constexpr std::uint32_t kPartsOfOctave = 4;
 
-/// The passes that a picture is made in, each over all tiles: [0, 1), [1, 2), [2, 4), [4, 8), then
-/// parts of an octave up to 64, then eight samples each. The first shows something soon; none lies
-/// in two blocks of the film.
+/// The passes that a tile is made in: [0, 1), [1, 2), [2, 4), then parts of an octave up to 32,
+/// then eight samples each. The first shows something soon; none lies in two blocks of the film.
 SampleSet::Range pass_range(int pass);
 /// The pass that sample `number` is in.
 int pass_of(std::uint32_t number);

@@ -37,9 +37,8 @@ Result<StoredFilm> add_up(const std::vector<std::string>& paths) {
 }
 
 void print_report(const MergeRequest& request, const StoredFilm& sum) {
-  std::uint32_t fewest = ~0u;
-  for (const renderer::PixelSums& p : sum.film.sums.pixels()) fewest = std::min(fewest, p.samples);
-  const double error = renderer::ErrorEstimate(sum.film.sums, sum.film.complete()).rmse();
+  const std::uint32_t fewest = sum.film.fewest_samples();
+  const double error = renderer::ErrorEstimate(sum.film).rmse();
   if (request.json()) {
     nlohmann::ordered_json json{{"picture", request.output}, {"samples", fewest}};
     if (tells_error(fewest)) json["error"] = error;

@@ -85,8 +85,7 @@ std::string numbers(const renderer::PartialFilm& film) {
 
 renderer::Metadata metadata(const std::string& path, const renderer::FilmKey& key,
                             const renderer::PartialFilm& film) {
-  std::uint32_t fewest = ~0u;
-  for (const renderer::PixelSums& p : film.sums.pixels()) fewest = std::min(fewest, p.samples);
+  const std::uint32_t fewest = film.fewest_samples();
   renderer::Metadata all{
       {"Software", "mms " MMS_VERSION},
       {"mms:seed", fmt::format("{}", key.seed)},
@@ -99,7 +98,7 @@ renderer::Metadata metadata(const std::string& path, const renderer::FilmKey& ke
       {"mms:script", fmt::format("{:016x}", key.script)},
       {"mms:scene", fmt::format("{:016x}", key.scene)}};
   if (tells_error(fewest)) {
-    const double error = renderer::ErrorEstimate(film.sums, film.complete()).rmse();
+    const double error = renderer::ErrorEstimate(film).rmse();
     all.emplace_back("mms:error", fmt::format("{:.4g}", error));
   }
   if (path.ends_with(".exr")) all.emplace_back("mms:command", command_line());

@@ -117,7 +117,9 @@ void add_render_options(Verb& verb, RenderRequest& r) {
        "Picture (.png, .exr), exact sums (.film), a folder for each NAME.png, or a sheet of all"});
   verb.add({"--samples", &r.samples, "N|A:B", "Samples for each pixel [64], or their numbers"});
   verb.add({"--time", &r.time, "SECONDS", "End after so long"});
-  verb.add({"--error", &r.error, "E", "End when the estimated error is no larger; 1 is white"});
+  verb.add({"--error", &r.error, "E",
+            "End when the estimated error is no larger, with more samples where they do more; 1 is "
+            "white"});
   verb.add({"--filter",
             &r.filter,
             "NAME",

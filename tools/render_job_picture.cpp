@@ -95,6 +95,7 @@ Json to_json(const std::string& script, const std::string& path, const renderer:
   Json json{{"script", script},
             {"picture", path},
             {"samples", r.samples},
+            {"mean_samples", r.mean_samples},
             {"seconds", r.seconds},
             {"error", r.rmse},
             {"threads", r.threads},
@@ -271,8 +272,11 @@ void print_report(const RenderRequest& request, const RenderScript& linked,
   if (request.json()) {
     fmt::print("{}\n", json.dump());
   } else if (!request.quiet) {
-    fmt::print("{}: {} per pixel, {:.2f} s, estimated error {}\n", path,
-               counted(r.samples, "sample"), r.seconds,
+    const std::string more = r.mean_samples > r.samples
+                                 ? fmt::format(" or more, {:.1f} on average", r.mean_samples)
+                                 : "";
+    fmt::print("{}: {} per pixel{}, {:.2f} s, estimated error {}\n", path,
+               counted(r.samples, "sample"), more, r.seconds,
                error_text(std::uint32_t(r.samples), r.rmse));
     if (request.report)
       for (const auto& [name, value] : json.items())

@@ -150,42 +150,30 @@ TEST_CASE("pictures: stated and real error agree") {
   }
 }
 
-TEST_CASE("a picture that ends by error does so within an eighth of a doubling") {
-  MatteBall ball;
-  RenderOptions& o = ball.options;
-  for (const int n : {9, 18, 36, 144}) {
-    CAPTURE(n);
-    o.samples = n;
-    o.error = 0;
-    const auto known = render(ball.h.program, *ball.scene, o);
-    REQUIRE(bool(known));
-    o.samples = 256;
-    o.error = known->report.rmse;  // which no picture of fewer samples states
-    const auto r = render(ball.h.program, *ball.scene, o);
-    REQUIRE(bool(r));
-    CHECK(r->report.samples == n);
-  }
-}
-
 TEST_CASE("variances of a picture add up to its error, and a picture that ends by error has it") {
   MatteBall ball;
   RenderOptions& o = ball.options;
-  o.samples = 4096;
-  o.error = 0.012;
-  std::vector<std::array<double, 3>> first;
-  for (int threads : {1, 2, 3}) {
-    o.threads = threads;
-    const auto r = render(ball.h.program, *ball.scene, o);
-    REQUIRE(bool(r));
-    CHECK(r->report.error_reached);
-    CHECK_FALSE(r->report.stopped);
-    CHECK(r->report.rmse <= 0.012);
-    CHECK(r->report.samples < 256);
-    double sum = 0;
-    for (double v : r->film.variance) sum += v;
-    CHECK(std::sqrt(sum / 1600) == doctest::Approx(r->report.rmse).epsilon(1e-9));
-    if (first.empty()) first = r->film.xyz;
-    CHECK(r->film.xyz == first);
+  // Where tiles of few and many samples meet, wide filters weigh them: the error does not know it.
+  for (const auto& [filter, tolerance] :
+       {std::pair(FilterShape::Box, 1e-9), std::pair(FilterShape::BlackmanHarris, 5e-3)}) {
+    o.filter = filter;
+    o.samples = 4096;
+    o.error = 0.012;
+    std::vector<std::array<double, 3>> first;
+    for (int threads : {1, 2, 3}) {
+      o.threads = threads;
+      const auto r = render(ball.h.program, *ball.scene, o);
+      REQUIRE(bool(r));
+      CHECK(r->report.error_reached);
+      CHECK_FALSE(r->report.stopped);
+      CHECK(r->report.rmse <= 0.012);
+      CHECK(r->report.samples < 256);
+      double sum = 0;
+      for (double v : r->film.variance) sum += v;
+      CHECK(std::sqrt(sum / 1600) == doctest::Approx(r->report.rmse).epsilon(tolerance));
+      if (first.empty()) first = r->film.xyz;
+      CHECK(r->film.xyz == first);
+    }
   }
   o.error = 0;
   o.seconds = 1e-9;

@@ -28,9 +28,11 @@ TEST_CASE("sets of samples are sets") {
     }
     CHECK(set.meets(other) == met);
     CHECK(set.count() == truth.size());
-    std::uint32_t prefix = 0;
-    while (truth.count(prefix) > 0) ++prefix;
-    CHECK(set.prefix() == prefix);
+    for (std::uint32_t from : {0u, 5u, 20u}) {
+      std::uint32_t missing = from;
+      while (truth.count(missing) > 0) ++missing;
+      CHECK(set.missing_from(from) == missing);
+    }
     for (std::size_t i = 1; i < set.ranges().size(); ++i)
       CHECK(set.ranges()[i - 1].second < set.ranges()[i].first);
   }
