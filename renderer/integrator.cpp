@@ -34,8 +34,9 @@ constexpr int kEachLightOfEven = 1, kEachLightOfUneven = 3;
 constexpr int kDrawsOfUneven = 8;
 
 /// Paths are given up below this mean contribution only: in glass of index n radiance is 1 / n^2 of
-/// what it is again outside, so a path that carries a third may have lost nothing.
-constexpr float kSafeContribution = 1.0f / 3;
+/// what it is again outside, so a path that carries a third may have lost nothing; and each of the
+/// directions from the first vertex carries its part.
+constexpr float kSafeContribution = 1.0f / (3 * kDirectionsOfFirst);
 
 /// Rays that fly together, at least: enough to fill batches though scripts differ.
 constexpr std::size_t kTogether = 2048;
