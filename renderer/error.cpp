@@ -31,13 +31,10 @@ struct Sums {
 double mean(const BlockSums& s) { return double(s.y) / double(s.weight); }
 
 /// (A - B)^2 / 4 at one probe, of block `b` and all before it.
-double quarter_difference(const FilmSums& film, int b, std::size_t probe) {
+double quarter_difference(const PartialFilm& film, int b, int x, int y) {
   BlockSums before;
-  for (int i = 0; i < b; ++i) {
-    before.y += film.block(i)[probe].y;
-    before.weight += film.block(i)[probe].weight;
-  }
-  const BlockSums& last = film.block(b)[probe];
+  for (int i = 0; i < b; ++i) before += film.block(i, x, y);
+  const BlockSums last = film.block(b, x, y);
   if (before.weight == 0 || last.weight == 0) return 0;
   constexpr double kUnit = 0x1p40;  // of a value: sums are in 2^-64, weights in 2^-24
   const double d = (mean(before) - mean(last)) / kUnit;
@@ -46,30 +43,29 @@ double quarter_difference(const FilmSums& film, int b, std::size_t probe) {
 
 }  // namespace
 
-ErrorEstimate::ErrorEstimate(const FilmSums& film, std::span<const std::uint32_t> complete) {
-  const int stride = film.probe_stride();
+ErrorEstimate::ErrorEstimate(const PartialFilm& film) {
+  const int stride = film.parts[0].probe_stride();
   side_ = kTile * stride;
   across_ = (film.width() + side_ - 1) / side_;
   const int down = (film.height() + side_ - 1) / side_;
   const auto patch = [&](int x, int y) { return std::size_t(y / side_ * across_ + x / side_); };
   std::vector<Sums> sums(std::size_t(across_) * std::size_t(down));
-  auto tile = complete.begin();
-  for (int y = 0; y < film.height(); y += kTile)
-    for (int x = 0; x < film.width(); x += kTile) {
-      Sums& s = sums[patch(x, y)];
-      s.complete = std::min(s.complete, *tile++);
-    }
-  std::size_t probe = 0;
+  for (int t = 0; t < film.tiles(); ++t) {
+    const Rect r = film.tile(t);
+    Sums& s = sums[patch(r.x0, r.y0)];
+    s.complete = std::min(s.complete, film.done[std::size_t(t)].missing_from(0));
+  }
+  std::size_t probes = 0;
   for (int y = 0; y < film.height(); y += stride)
-    for (int x = 0; x < film.width(); x += stride, ++probe) {
+    for (int x = 0; x < film.width(); x += stride, ++probes) {
       Sums& s = sums[patch(x, y)];
-      const PixelSums& p = film.pixel(x, y);
-      s.independent += film.variance(p);
+      const PixelSums p = film.pixel(x, y);
+      s.independent += film.parts[0].variance(p);
       s.samples += p.samples;
       ++s.probes;
       if (s.block() < 1) continue;
-      s.last += quarter_difference(film, s.block(), probe);
-      if (s.block() >= 2) s.before += quarter_difference(film, s.block() - 1, probe);
+      s.last += quarter_difference(film, s.block(), x, y);
+      if (s.block() >= 2) s.before += quarter_difference(film, s.block() - 1, x, y);
     }
   double sum = 0;
   for (int y = 0; y < down; ++y)
@@ -96,17 +92,8 @@ ErrorEstimate::ErrorEstimate(const FilmSums& film, std::span<const std::uint32_t
       factors_.push_back(s.independent > 0 ? variance / s.independent : 1);
       sum += variance;
     }
-  rmse_ = std::sqrt(sum / double(std::max<std::size_t>(1, probe)));
+  rmse_ = std::sqrt(sum / double(probes));
 }
-
-ErrorEstimate::ErrorEstimate(const FilmSums& film, std::uint32_t complete)
-    : ErrorEstimate(film,
-                    std::vector<std::uint32_t>(std::size_t((film.width() + kTile - 1) / kTile) *
-                                                   std::size_t((film.height() + kTile - 1) / kTile),
-                                               complete)) {}
-
-ErrorEstimate::ErrorEstimate(const PartialFilm& film)
-    : ErrorEstimate(film.sums(), film.complete()) {}
 
 double ErrorEstimate::factor(int x, int y) const {
   return factors_[std::size_t(y / side_ * across_ + x / side_)];

@@ -34,11 +34,8 @@ class ErrorEstimate {
     bool operator==(const Patch&) const = default;
   };
 
-  /// For each tile, row by row, the number below which all samples are there. Where that is below
-  /// 4 the samples are taken to be independent, which errs upwards.
-  ErrorEstimate(const FilmSums& film, std::span<const std::uint32_t> complete);
-  /// The same number everywhere.
-  ErrorEstimate(const FilmSums& film, std::uint32_t complete);
+  /// Where a tile lacks one of its first 4 samples they are taken to be independent, which errs
+  /// upwards.
   explicit ErrorEstimate(const PartialFilm& film);
 
   /// Root of the mean variance of a pixel's linear luminance over the picture; 0 below 2 samples.

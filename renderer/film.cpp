@@ -45,6 +45,21 @@ Reach reach(double at, double radius, int low, int high) {
 
 }  // namespace
 
+PixelSums& PixelSums::operator+=(const PixelSums& other) {
+  for (int i = 0; i < 3; ++i) xyz[i] += other.xyz[i];
+  luminance_square += other.luminance_square;
+  weight += other.weight;
+  samples += other.samples;
+  dropped += other.dropped;
+  return *this;
+}
+
+BlockSums& BlockSums::operator+=(const BlockSums& other) {
+  y += other.y;
+  weight += other.weight;
+  return *this;
+}
+
 FilmSums::FilmSums(int width, int height, FilterShape filter, Rect rect)
     : width_(width),
       height_(height),
@@ -108,8 +123,7 @@ void FilmSums::spread(Int128 y, Int128 square, const Int128 (&xyz)[3], const Fil
       p.luminance_square += square * w;
       p.weight += w;
       if (stride_ > 1 && (column % stride_ != 0 || row % stride_ != 0)) continue;
-      BlockSums& b = block[std::size_t(row / stride_ - first_down_) * std::size_t(across_) +
-                           std::size_t(column / stride_ - first_across_)];
+      BlockSums& b = block[probe(column, row)];
       b.y += y * w;
       b.weight += w;
     }
@@ -121,26 +135,15 @@ void FilmSums::merge(const FilmSums& part) {
   const Rect& r = part.rect_;
   const PixelSums* from = part.pixels_.data();
   for (int y = r.y0; y < r.y1; ++y)
-    for (int x = r.x0; x < r.x1; ++x, ++from) {
-      PixelSums& to = pixels_[index(x, y)];
-      for (int i = 0; i < 3; ++i) to.xyz[i] += from->xyz[i];
-      to.luminance_square += from->luminance_square;
-      to.weight += from->weight;
-      to.samples += from->samples;
-      to.dropped += from->dropped;
-    }
-  for (int b = 0; b < int(part.blocks_.size()); ++b) {
+    for (int x = r.x0; x < r.x1; ++x, ++from) pixels_[index(x, y)] += *from;
+  for (int b = 0; b < part.blocks(); ++b) {
     if (part.blocks_[b].empty()) continue;
     std::vector<BlockSums>& block = open_block(b);
     for (int y = 0; y < part.down_; ++y)
       for (int x = 0; x < part.across_; ++x) {
-        const BlockSums& f =
+        block[std::size_t(y + part.first_down_ - first_down_) * std::size_t(across_) +
+              std::size_t(x + part.first_across_ - first_across_)] +=
             part.blocks_[b][std::size_t(y) * std::size_t(part.across_) + std::size_t(x)];
-        BlockSums& to =
-            block[std::size_t(y + part.first_down_ - first_down_) * std::size_t(across_) +
-                  std::size_t(x + part.first_across_ - first_across_)];
-        to.y += f.y;
-        to.weight += f.weight;
       }
   }
 }
@@ -174,14 +177,16 @@ Film FilmSums::develop() const {
   film.variance.reserve(pixels_.size());
   film.samples.reserve(pixels_.size());
   film.dropped.reserve(pixels_.size());
-  for (const PixelSums& p : pixels_) {
-    film.xyz.push_back(p.weight > 0 ? std::array{mean(p, 0), mean(p, 1), mean(p, 2)}
-                                    : std::array<double, 3>{});
-    film.variance.push_back(variance(p));
-    film.samples.push_back(p.samples);
-    film.dropped.push_back(p.dropped);
-  }
+  for (const PixelSums& p : pixels_) develop(p, film);
   return film;
+}
+
+void FilmSums::develop(const PixelSums& p, Film& film) const {
+  film.xyz.push_back(p.weight > 0 ? std::array{mean(p, 0), mean(p, 1), mean(p, 2)}
+                                  : std::array<double, 3>{});
+  film.variance.push_back(variance(p));
+  film.samples.push_back(p.samples);
+  film.dropped.push_back(p.dropped);
 }
 
 }  // namespace mms::renderer

@@ -56,6 +56,7 @@ struct PixelSums {
   std::int64_t weight = 0;      ///< in 2^-24
   std::uint32_t samples = 0;    ///< that fell into the pixel
   std::uint32_t dropped = 0;    ///< of them, those that were not added
+  PixelSums& operator+=(const PixelSums& other);
   bool operator==(const PixelSums&) const = default;
 };
 
@@ -63,6 +64,7 @@ struct PixelSums {
 struct BlockSums {
   Int128 y = 0;  ///< in 2^-64, cut like the squares
   std::int64_t weight = 0;
+  BlockSums& operator+=(const BlockSums& other);
   bool operator==(const BlockSums&) const = default;
 };
 
@@ -116,6 +118,10 @@ class FilmSums {
                                    : std::span<const BlockSums>();
   }
   int blocks() const { return int(blocks_.size()); }
+  /// The block at a probe of this rect, or zeros.
+  BlockSums block(int b, int x, int y) const {
+    return block(b).empty() ? BlockSums() : blocks_[std::size_t(b)][probe(x, y)];
+  }
   std::size_t probes() const { return std::size_t(across_) * std::size_t(down_); }
 
   /// Takes sums that were kept. \pre as many as there are pixels, and probes or none in each block.
@@ -123,10 +129,16 @@ class FilmSums {
 
   /// Means, and the variance of each by the scatter of its samples as if they were independent.
   Film develop() const;
+  /// One pixel more at the end of `film`.
+  void develop(const PixelSums& p, Film& film) const;
 
  private:
   std::size_t index(int x, int y) const {
     return std::size_t(y - rect_.y0) * std::size_t(rect_.width()) + std::size_t(x - rect_.x0);
+  }
+  std::size_t probe(int x, int y) const {
+    return std::size_t(y / stride_ - first_down_) * std::size_t(across_) +
+           std::size_t(x / stride_ - first_across_);
   }
   void spread(Int128 y, Int128 square, const Int128 (&xyz)[3], const FilmSample& s);
   std::vector<BlockSums>& open_block(int b);

@@ -20,28 +20,35 @@ constexpr std::uint32_t kFirstOfFull = kPartsOfOctave * kSamplesOfPass;
 constexpr int kFirstPart = std::bit_width(kPartsOfOctave);
 constexpr int kFirstFullPass = kFirstPart + int(kPartsOfOctave) * std::countr_zero(kSamplesOfPass);
 
+/// How far a sample reaches beyond its tile, in pixels.
+int reach_of(FilterShape filter) { return int(std::ceil(filter_of(filter).radius() - 0.5)); }
+
 /// What a pixel gets from the tiles around it, each divided by its number of samples.
 class WeighedPixel {
  public:
-  void add(const FilmSums& part, int x, int y, double samples) {
+  void add(const FilmSums& part, int x, int y, std::uint64_t samples) {
     const PixelSums& p = part.pixel(x, y);
     if (p.weight <= 0) return;
-    ++parts_;
-    const double weight = double(p.weight) / samples;
+    even_ &= samples_ == 0 || samples == samples_;
+    samples_ = samples;
+    const double weight = double(p.weight) / double(samples), worth = part.samples_worth(p);
     weight_ += weight;
-    squares_ += weight * weight / part.samples_worth(p);
+    squares_ += weight * weight / worth;
+    worth_ += worth;
     for (int i = 0; i < 3; ++i) xyz_[i] += FilmSums::mean(p, i) * weight;
   }
-  int parts() const { return parts_; }
+  /// Whether all tiles have as many.
+  bool even() const { return even_; }
   std::array<double, 3> mean() const {
     return {xyz_[0] / weight_, xyz_[1] / weight_, xyz_[2] / weight_};
   }
-  /// Over that of one independent sample.
-  double variance() const { return squares_ / (weight_ * weight_); }
+  /// Of the mean, over that of all samples alike.
+  double variance() const { return squares_ / (weight_ * weight_) * worth_; }
 
  private:
-  int parts_ = 0;
-  double weight_ = 0, squares_ = 0;
+  bool even_ = true;
+  std::uint64_t samples_ = 0;
+  double weight_ = 0, squares_ = 0, worth_ = 0;
   std::array<double, 3> xyz_{};
 };
 
@@ -85,15 +92,38 @@ std::uint64_t SampleSet::count() const {
 
 PartialFilm::PartialFilm(int width, int height, FilterShape filter) {
   const int across = (width + kTile - 1) / kTile, down = (height + kTile - 1) / kTile;
-  const int margin = int(std::ceil(filter_of(filter).radius() - 0.5));
+  const int reach = reach_of(filter);
   for (int t = 0; t < across * down; ++t) {
     const int x = t % across * kTile, y = t / across * kTile;
     parts.emplace_back(
         width, height, filter,
-        Rect{std::max(0, x - margin), std::max(0, y - margin), std::min(width, x + kTile + margin),
-             std::min(height, y + kTile + margin)});
+        Rect{std::max(0, x - reach), std::max(0, y - reach), std::min(width, x + kTile + reach),
+             std::min(height, y + kTile + reach)});
   }
   done.resize(parts.size());
+}
+
+/// Calls `f` with each tile whose samples may reach the pixel.
+template <class F>
+void PartialFilm::for_each_part(int x, int y, const F& f) const {
+  const int reach = reach_of(parts[0].filter()), across = tiles_across();
+  const int last_x = std::min(x + reach, width() - 1) / kTile,
+            last_y = std::min(y + reach, height() - 1) / kTile;
+  for (int row = std::max(0, y - reach) / kTile; row <= last_y; ++row)
+    for (int column = std::max(0, x - reach) / kTile; column <= last_x; ++column)
+      f(std::size_t(row * across + column));
+}
+
+PixelSums PartialFilm::pixel(int x, int y) const {
+  PixelSums sum;
+  for_each_part(x, y, [&](std::size_t t) { sum += parts[t].pixel(x, y); });
+  return sum;
+}
+
+BlockSums PartialFilm::block(int b, int x, int y) const {
+  BlockSums sum;
+  for_each_part(x, y, [&](std::size_t t) { sum += parts[t].block(b, x, y); });
+  return sum;
 }
 
 Rect PartialFilm::tile(int t) const {
@@ -118,12 +148,6 @@ std::uint32_t PartialFilm::fewest_samples() const {
   return fewest;
 }
 
-FilmSums PartialFilm::sums() const {
-  FilmSums all(width(), height(), parts[0].filter());
-  for (const FilmSums& part : parts) all.merge(part);
-  return all;
-}
-
 bool PartialFilm::meets(const PartialFilm& other) const {
   for (std::size_t t = 0; t < done.size(); ++t)
     if (done[t].meets(other.done[t])) return true;
@@ -140,36 +164,26 @@ void PartialFilm::add(const PartialFilm& other) {
 }
 
 Film PartialFilm::develop() const {
-  const FilmSums all = sums();
-  Film film = all.develop();
-  ErrorEstimate(all, complete()).correct(film);
-  weigh_borders(all, film);
+  Film film{width(), height(), {}, {}};
+  for (int y = 0; y < height(); ++y)
+    for (int x = 0; x < width(); ++x) parts[0].develop(pixel(x, y), film);
+  ErrorEstimate(*this).correct(film);
+  weigh_borders(film);
   return film;
 }
 
 /// Where tiles meet that have different numbers of samples, a sum of both would reach further into
 /// the one that has more: each part counts by its samples here.
-void PartialFilm::weigh_borders(const FilmSums& all, Film& film) const {
-  const int across = tiles_across(), down = tiles() / across;
-  for (int t = 0; t < tiles(); ++t) {
-    std::vector<int> near;  // and itself
-    for (int y = std::max(0, t / across - 1); y < std::min(down, t / across + 2); ++y)
-      for (int x = std::max(0, t % across - 1); x < std::min(across, t % across + 2); ++x)
-        near.push_back(y * across + x);
-    const auto as_many = [&](int n) { return done[n].count() == done[t].count(); };
-    if (std::all_of(near.begin(), near.end(), as_many)) continue;
-    const Rect r = tile(t);
-    for (int y = r.y0; y < r.y1; ++y)
-      for (int x = r.x0; x < r.x1; ++x) {
-        WeighedPixel pixel;
-        for (const int n : near)
-          if (parts[n].rect().has(x, y)) pixel.add(parts[n], x, y, double(done[n].count()));
-        if (pixel.parts() < 2) continue;
-        const std::size_t i = std::size_t(y) * std::size_t(width()) + std::size_t(x);
-        film.xyz[i] = pixel.mean();
-        film.variance[i] *= pixel.variance() * all.samples_worth(all.pixel(x, y));
-      }
-  }
+void PartialFilm::weigh_borders(Film& film) const {
+  std::size_t i = 0;
+  for (int y = 0; y < height(); ++y)
+    for (int x = 0; x < width(); ++x, ++i) {
+      WeighedPixel pixel;
+      for_each_part(x, y, [&](std::size_t t) { pixel.add(parts[t], x, y, done[t].count()); });
+      if (pixel.even()) continue;
+      film.xyz[i] = pixel.mean();
+      film.variance[i] *= pixel.variance();
+    }
 }
 
 SampleSet::Range pass_range(int pass) {

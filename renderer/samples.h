@@ -52,8 +52,10 @@ struct PartialFilm {
   std::vector<std::uint32_t> complete() const;
   /// Of the samples that fell into a pixel, the smallest number.
   std::uint32_t fewest_samples() const;
-  /// All parts in one.
-  FilmSums sums() const;
+  /// What all parts have gathered there.
+  PixelSums pixel(int x, int y) const;
+  /// The same of a block, at a probe.
+  BlockSums block(int b, int x, int y) const;
   /// Whether some sample is in both; then they must not be added up.
   bool meets(const PartialFilm& other) const;
   /// \pre same size and filter, and `!meets(other)`.
@@ -62,7 +64,9 @@ struct PartialFilm {
   Film develop() const;
 
  private:
-  void weigh_borders(const FilmSums& all, Film& film) const;
+  template <class F>
+  void for_each_part(int x, int y, const F& f) const;
+  void weigh_borders(Film& film) const;
 };
 
 /// Doublings of the samples are worked on, and looked at, in so many parts.

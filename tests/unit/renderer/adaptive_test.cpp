@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/hash.h"
+#include "film_samples.h"
 #include "hand_program.h"
 #include "renderer/samples.h"
 #include "renderer/scene.h"
@@ -50,15 +51,15 @@ TEST_CASE("samples go where they do most: in proportion to the deviation of one"
   // each patch of n = s mean(s) / E^2, by Lagrange's rule.
   const int width = 320, height = 64, samples = 16;
   const double deviation[] = {1, 3}, target = 0.1;
-  FilmSums film(width, height, FilterShape::Box);
+  PartialFilm film(width, height, FilterShape::Box);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       for (int s = 0; s < samples; ++s) {
         const double u = to_unit(hash_combine(std::uint64_t(y * width + x), std::uint64_t(s)));
         const double v = std::sqrt(12.0) * (u - 0.5) * deviation[x >= width / 2];
-        film.add({x + 0.5, y + 0.5, std::uint32_t(s), {v, v, v}});
+        add_sample(film, {x + 0.5, y + 0.5, std::uint32_t(s), {v, v, v}});
       }
-  const ErrorEstimate estimate(film, samples);
+  const ErrorEstimate estimate(film);
   REQUIRE(estimate.rmse() > target);
   const std::vector<double> worth = samples_worth_having(estimate, target);
   const int across = estimate.patches_across();
@@ -79,19 +80,17 @@ TEST_CASE("what has more samples than it is worth leaves the rest to others") {
   // Of two equal halves one has 64 samples and the other 4: n more for the other so that
   // (1 / 64 + 1 / n) / 2 = E^2.
   const int side = 64;
-  FilmSums film(2 * side, side, FilterShape::Box);
-  std::vector<std::uint32_t> complete;
+  PartialFilm film(2 * side, side, FilterShape::Box);
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < 2 * side; ++x) {
       const int samples = x < side ? 64 : 4;
-      if (x % kTile == 0 && y % kTile == 0) complete.push_back(std::uint32_t(samples));
       for (int s = 0; s < samples; ++s) {
         const double u = to_unit(hash_combine(std::uint64_t(y * 2 * side + x), std::uint64_t(s)));
         const double v = std::sqrt(12.0) * (u - 0.5);
-        film.add({x + 0.5, y + 0.5, std::uint32_t(s), {v, v, v}});
+        add_sample(film, {x + 0.5, y + 0.5, std::uint32_t(s), {v, v, v}});
       }
     }
-  const ErrorEstimate estimate(film, complete);
+  const ErrorEstimate estimate(film);
   CHECK(estimate.rmse() == doctest::Approx(std::sqrt((1 / 64.0 + 1 / 4.0) / 2)).epsilon(0.1));
   const double target = std::sqrt((1 / 64.0 + 1 / 12.0) / 2);
   const std::vector<double> worth = samples_worth_having(estimate, target);
@@ -115,18 +114,16 @@ TEST_CASE("where tiles with few and many samples meet, filters keep their shape"
         for (int x = tile.x0; x < tile.x1; ++x)
           for (int s = 0; s < n * n; ++s) {
             const double at = x + (s % n + 0.5) / n;
-            film.parts[std::size_t(t)].add(
-                {at, y + (s / n + 0.5) / n, std::uint32_t(s), {at, at, at}});
+            add_sample(film, {at, y + (s / n + 0.5) / n, std::uint32_t(s), {at, at, at}});
           }
-      film.done[std::size_t(t)].add({0, std::uint32_t(n * n)});
     }
-    const Film weighed = film.develop(), summed = film.sums().develop();
+    const Film weighed = film.develop();
     double worst = 0, plain = 0;
     for (int y = 0; y < height; ++y)
       for (int x = 2; x < width - 2; ++x) {
         const std::size_t i = std::size_t(y * width + x);
         worst = std::max(worst, std::abs(weighed.xyz[i][1] - (x + 0.5)));
-        plain = std::max(plain, std::abs(summed.xyz[i][1] - (x + 0.5)));
+        plain = std::max(plain, std::abs(FilmSums::mean(film.pixel(x, y), 1) - (x + 0.5)));
       }
     CHECK(worst < 2e-3);  // of the rule of midpoints
     if (info.radius > 0.5) CHECK(plain > 0.1);

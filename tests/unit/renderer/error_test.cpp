@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "base/hash.h"
+#include "film_samples.h"
 #include "hand_program.h"
 #include "renderer/sampler.h"
 #include "renderer/samples.h"
@@ -30,17 +31,17 @@ struct Errors {
 Errors of_integrand(const std::function<double(double, double, std::uint64_t)>& f, double integral,
                     int samples, std::uint64_t seed) {
   const int side = 64;
-  FilmSums film(side, side, FilterShape::Box);
+  PartialFilm film(side, side, FilterShape::Box);
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x)
       for (int s = 0; s < samples; ++s) {
         const Sampler sampler(seed, x, y, std::uint64_t(s));
         const double v = f(sampler(0), sampler(1), hash_combine(seed, (x << 8 | y) * 65536 + s));
-        film.add({x + 0.5, y + 0.5, std::uint32_t(s), {v, v, v}});
+        add_sample(film, {x + 0.5, y + 0.5, std::uint32_t(s), {v, v, v}});
       }
   double sum = 0;
   for (const auto& xyz : film.develop().xyz) sum += (xyz[1] - integral) * (xyz[1] - integral);
-  return {ErrorEstimate(film, std::uint32_t(samples)).rmse(), std::sqrt(sum / side / side)};
+  return {ErrorEstimate(film).rmse(), std::sqrt(sum / side / side)};
 }
 
 /// Root mean square over `seeds` renders of what each states and of its distance from `reference`,
