@@ -86,7 +86,7 @@ Exit print_markdown(const DocOptions& options) {
 Exit print_page(const DocOptions& options) {
   if (options.page == "-" || options.page.ends_with(".mms")) return print_script(options);
   if (options.page.ends_with(".md")) return print_markdown(options);
-  std::vector<std::string> names, functions;
+  std::vector<std::string> names, entries;
   for (const Document& page : documents()) {
     if (page.name == options.page) {
       fmt::print("{}", rendered(page.text(), options));
@@ -94,17 +94,17 @@ Exit print_page(const DocOptions& options) {
     }
     names.emplace_back(page.name);
   }
-  for (const auto& [name, text] : function_documents()) {
+  for (const auto& [name, text] : entry_documents()) {
     if (name == options.page) {
       fmt::print("{}", rendered(text, options));
       return Exit::Ok;
     }
-    functions.push_back(name);
+    entries.push_back(name);
   }
   std::string near = lang::nearest(options.page, names);
-  if (near.empty()) near = lang::nearest(options.page, functions);
+  if (near.empty()) near = lang::nearest(options.page, entries);
   return fail(Exit::Usage,
-              {"mms doc", fmt::format("no page and no function is called `{}`", options.page),
+              {"mms doc", fmt::format("no page, function or variable is called `{}`", options.page),
                near.empty() ? fmt::format("there are: {}", fmt::join(names, ", "))
                             : fmt::format("did you mean `{}`?", near)},
               options);

@@ -119,7 +119,7 @@ std::vector<std::pair<std::string, std::string>> module_entries(const lang::Libr
 
 std::span<const Document> documents() { return kDocuments; }
 
-std::map<std::string, std::string> function_documents() {
+std::map<std::string, std::string> entry_documents() {
   std::map<std::string, std::string> all;
   const lang::Library& library = api::standard_library();
   Pictures pictures;
@@ -127,6 +127,11 @@ std::map<std::string, std::string> function_documents() {
     all[name_of(row.signature)] += entry(row, pictures);
   for (const lang::Library::Module& m : library.modules)
     for (const auto& [name, text] : module_entries(m, pictures)) all[name] += text;
+  for (const vm::VariableInfo& row : vm::kVariables)
+    if (row.visibility == vm::Visibility::Public)
+      all["$" + std::string(row.name)] =
+          fmt::format("`{} ${}`\n\n{} Space: {}, unit: {}.\n", row.type, row.name, row.doc,
+                      or_dash(row.space), row.unit);
   return all;
 }
 

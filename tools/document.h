@@ -19,8 +19,9 @@ struct Document {
 
 std::span<const Document> documents();
 
-/// What the library's page says of the functions and materials of each name.
-std::map<std::string, std::string> function_documents();
+/// What the library's page says of the functions and materials of each name, and the page of inputs
+/// of each `$variable`.
+std::map<std::string, std::string> entry_documents();
 
 std::string stdlib_document();
 std::string bytecode_document();

@@ -68,6 +68,9 @@ TEST_CASE("doc prints what the library says of a function, and explain the page 
   CHECK_FALSE(contains(perlin.out, "`real perlin_gradient("));
   CHECK(contains(all.out, perlin.out.substr(0, perlin.out.find("`real perlin(real[2]"))));
   CHECK(contains(folder.mms("doc matte").out, "material matte("));
+  CHECK(folder.mms("doc '$uv'").out ==
+        "`real[2] $uv`\n\nSurface parameters, each usually in [0, 1]. Space: texture, unit: 1.\n");
+  CHECK(contains(folder.mms("doc '$normall'").err, "did you mean `$normal`?"));
   CHECK(contains(folder.mms("explain unused-param").out, "W0404"));
   CHECK(folder.mms("explain unused").out == folder.mms("explain W0401").out);
 }
