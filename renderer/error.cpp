@@ -41,58 +41,66 @@ double quarter_difference(const PartialFilm& film, int b, int x, int y) {
   return d * d / 4;
 }
 
-}  // namespace
-
-ErrorEstimate::ErrorEstimate(const PartialFilm& film) {
-  const int stride = film.parts[0].probe_stride();
-  side_ = kTile * stride;
-  across_ = (film.width() + side_ - 1) / side_;
-  const int down = (film.height() + side_ - 1) / side_;
-  const auto patch = [&](int x, int y) { return std::size_t(y / side_ * across_ + x / side_); };
-  std::vector<Sums> sums(std::size_t(across_) * std::size_t(down));
+/// Patches of the edge `side`, row by row, `across` in a row.
+std::vector<Sums> sums_of(const PartialFilm& film, int side, int across) {
+  const int down = (film.height() + side - 1) / side, stride = side / kTile;
+  std::vector<Sums> all(std::size_t(across) * std::size_t(down));
+  const auto patch = [&](int x, int y) -> Sums& {
+    return all[std::size_t(y / side * across + x / side)];
+  };
   for (int t = 0; t < film.tiles(); ++t) {
     const Rect r = film.tile(t);
-    Sums& s = sums[patch(r.x0, r.y0)];
+    Sums& s = patch(r.x0, r.y0);
     s.complete = std::min(s.complete, film.done[std::size_t(t)].missing_from(0));
   }
-  std::size_t probes = 0;
   for (int y = 0; y < film.height(); y += stride)
-    for (int x = 0; x < film.width(); x += stride, ++probes) {
-      Sums& s = sums[patch(x, y)];
+    for (int x = 0; x < film.width(); x += stride) {
+      Sums& s = patch(x, y);
       const PixelSums p = film.pixel(x, y);
       s.independent += film.parts[0].variance(p);
       s.samples += p.samples;
       ++s.probes;
-      if (s.block() < 1) continue;
-      s.last += quarter_difference(film, s.block(), x, y);
+      if (s.block() >= 1) s.last += quarter_difference(film, s.block(), x, y);
       if (s.block() >= 2) s.before += quarter_difference(film, s.block() - 1, x, y);
     }
-  double sum = 0;
-  for (int y = 0; y < down; ++y)
-    for (int x = 0; x < across_; ++x) {
-      const Sums& s = sums[std::size_t(y * across_ + x)];
-      double variance = s.independent;
-      if (s.block() >= 1) {
-        // Both differences of patches with as many samples, more or less.
-        double last = 0, before = 0;
-        for (int j = std::max(0, y - kAround); j <= std::min(down - 1, y + kAround); ++j)
-          for (int i = std::max(0, x - kAround); i <= std::min(across_ - 1, x + kAround); ++i) {
-            const Sums& near = sums[std::size_t(j * across_ + i)];
-            if (near.block() != s.block()) continue;
-            last += near.last;
-            before += near.before;
-          }
-        const double ratio =
-            s.block() >= 2 && last > 0 ? std::clamp(before / last, kSlowest, kFastest) : 2;
-        // Samples past the last whole block count as if they were independent of it.
-        const double whole = block_end(s.block()) * double(s.probes);
-        variance = s.last / (ratio - 1) * std::min(1.0, whole / s.samples);
-      }
-      patches_.push_back({variance / s.probes, s.samples / s.probes, s.probes});
-      factors_.push_back(s.independent > 0 ? variance / s.independent : 1);
-      sum += variance;
+  return all;
+}
+
+/// r of the patch at column `x` and row `y`: of those around that have as many samples, about.
+double ratio_around(const std::vector<Sums>& all, int across, int x, int y) {
+  const int down = int(all.size()) / across, block = all[std::size_t(y * across + x)].block();
+  double last = 0, before = 0;
+  for (int j = std::max(0, y - kAround); j <= std::min(down - 1, y + kAround); ++j)
+    for (int i = std::max(0, x - kAround); i <= std::min(across - 1, x + kAround); ++i) {
+      const Sums& near = all[std::size_t(j * across + i)];
+      if (near.block() != block) continue;
+      last += near.last;
+      before += near.before;
     }
-  rmse_ = std::sqrt(sum / double(probes));
+  return block >= 2 && last > 0 ? std::clamp(before / last, kSlowest, kFastest) : 2;
+}
+
+}  // namespace
+
+ErrorEstimate::ErrorEstimate(const PartialFilm& film)
+    : side_(kTile * film.parts[0].probe_stride()), across_((film.width() + side_ - 1) / side_) {
+  const std::vector<Sums> all = sums_of(film, side_, across_);
+  double sum = 0, probes = 0;
+  for (int i = 0; i < int(all.size()); ++i) {
+    const Sums& s = all[std::size_t(i)];
+    double variance = s.independent;
+    if (s.block() >= 1) {
+      // Samples past the last whole block count as if they were independent of it.
+      const double whole = block_end(s.block()) * double(s.probes);
+      variance = s.last / (ratio_around(all, across_, i % across_, i / across_) - 1) *
+                 std::min(1.0, whole / s.samples);
+    }
+    patches_.push_back({variance / s.probes, s.samples / s.probes, s.probes});
+    factors_.push_back(s.independent > 0 ? variance / s.independent : 1);
+    sum += variance;
+    probes += s.probes;
+  }
+  rmse_ = std::sqrt(sum / probes);
 }
 
 double ErrorEstimate::factor(int x, int y) const {

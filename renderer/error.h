@@ -31,7 +31,6 @@ class ErrorEstimate {
     double variance = 0;  ///< of a pixel's mean luminance, on average; 0 below 2 samples
     double samples = 0;   ///< of a pixel
     int probes = 0;       ///< pixels that were looked at
-    bool operator==(const Patch&) const = default;
   };
 
   /// Where a tile lacks one of its first 4 samples they are taken to be independent, which errs
@@ -51,7 +50,7 @@ class ErrorEstimate {
   void correct(Film& film) const;
 
  private:
-  int side_ = 1, across_ = 1;
+  int side_, across_;
   std::vector<Patch> patches_;
   std::vector<double> factors_;
   double rmse_ = 0;

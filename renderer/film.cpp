@@ -160,15 +160,11 @@ double FilmSums::mean(const PixelSums& p, int i) {
   return double(p.xyz[i]) / kSumUnit / (double(p.weight) / kWeightUnit);
 }
 
-double FilmSums::scatter(const PixelSums& p) const {
-  if (p.weight <= 0) return 0;
-  const double weight = double(p.weight) / kWeightUnit, y = mean(p, 1);
-  return std::max(0.0, double(p.luminance_square) / kSumUnit / weight - y * y);
-}
-
 double FilmSums::variance(const PixelSums& p) const {
   const double n = samples_worth(p);
-  return n > 1 && p.samples > 1 ? scatter(p) / (n - 1) : 0;
+  if (!(n > 1 && p.samples > 1)) return 0;
+  const double weight = double(p.weight) / kWeightUnit, y = mean(p, 1);
+  return std::max(0.0, double(p.luminance_square) / kSumUnit / weight - y * y) / (n - 1);
 }
 
 Film FilmSums::develop() const {

@@ -104,8 +104,6 @@ class FilmSums {
   double samples_worth(const PixelSums& p) const;
   /// Of one value; \pre p.weight > 0
   static double mean(const PixelSums& p, int i);
-  /// Mean of Y^2 less the square of the mean of Y; 0 where there is no sample.
-  double scatter(const PixelSums& p) const;
   /// Variance of the mean luminance, were the samples independent; 0 below two samples.
   double variance(const PixelSums& p) const;
 

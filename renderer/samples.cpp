@@ -131,12 +131,6 @@ Rect PartialFilm::tile(int t) const {
   return {x, y, std::min(x + kTile, width()), std::min(y + kTile, height())};
 }
 
-std::vector<std::uint32_t> PartialFilm::complete() const {
-  std::vector<std::uint32_t> all;
-  for (const SampleSet& s : done) all.push_back(s.missing_from(0));
-  return all;
-}
-
 std::uint32_t PartialFilm::fewest_samples() const {
   std::uint32_t fewest = ~0u;
   for (int t = 0; t < tiles(); ++t) {

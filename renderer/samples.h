@@ -48,8 +48,6 @@ struct PartialFilm {
   int tiles_across() const { return (width() + kTile - 1) / kTile; }
   /// The pixels of tile `t`.
   Rect tile(int t) const;
-  /// Of each tile, the number below which all samples are there.
-  std::vector<std::uint32_t> complete() const;
   /// Of the samples that fell into a pixel, the smallest number.
   std::uint32_t fewest_samples() const;
   /// What all parts have gathered there.
