@@ -37,17 +37,28 @@ const Directions& directions() {
   return d;
 }
 
-/// Of two nodes, for linear interpolation.
+/// Of four nodes, for Lagrange's cubic: what is linear widens a lobe by a step, which near grazing
+/// is 1e-3 of the mean of T.
 struct Place {
   int first;
-  double second;  ///< the weight of the next
+  double weight[4];
 
   explicit Place(double place) {
-    const double x = std::clamp(place * kNodes - 0.5, 0.0, kNodes - 1 - 1e-9);
-    first = int(x);
-    second = x - first;
+    const double x = std::clamp(place * kNodes - 0.5, -0.5, kNodes - 0.5);
+    first = std::clamp(int(x) - 1, 0, kNodes - 4);
+    const double a = x - first, b = a - 1, c = a - 2, d = a - 3;
+    weight[0] = -b * c * d / 6;
+    weight[1] = a * c * d / 2;
+    weight[2] = -a * b * d / 2;
+    weight[3] = a * b * c / 6;
   }
   static Place of(double z) { return Place(axes::coat_direction(z)); }
+
+  double value(const Values& of) const {
+    double sum = 0;
+    for (int k = 0; k < 4; ++k) sum += weight[k] * of[first + k];
+    return sum;
+  }
 };
 
 /// The lobe as a matrix: row o holds what light along o is spread to; rows sum to 1.
@@ -56,8 +67,7 @@ struct Spread {
 
   void add(int row, double z, double share) {
     const Place p = Place::of(z);
-    rows[row][p.first] += share * (1 - p.second);
-    rows[row][p.first + 1] += share * p.second;
+    for (int k = 0; k < 4; ++k) rows[row][p.first + k] += share * p.weight[k];
   }
 
   Values mean(const Values& of) const {
@@ -202,8 +212,7 @@ void write_coated(std::FILE* to, const char* name, const std::vector<Spread>& lo
   const Grid grid({count, kCoatIndex, kCoatDirection}, [&](const double* x) {
     const auto at = [](double u, int nodes) { return int(std::lround(u * (nodes - 1))); };
     const Values& line = table[at(x[0], count) * kCoatIndex + at(x[1], kCoatIndex)];
-    const Place p(x[2]);
-    return line[p.first] * (1 - p.second) + line[p.first + 1] * p.second;
+    return Place(x[2]).value(line);
   });
   const Values spline = grid.spline();
   write_numbers(to, name, {spline.begin(), spline.end()});
