@@ -22,6 +22,12 @@
 
 namespace mms::materials {
 
+/// Nodes of these tables, along the axes of a coat. As many indices keep what the spline rings by
+/// next to infinity, where T changes fast, from those below 4.
+namespace axes {
+inline constexpr int kCoatedAlpha = 37, kCoatedGloss = 65, kCoatedIndex = 49;
+}
+
 /// [width][index][direction] along the axes of a coat (materials/energy.h).
 extern const float* const kGgxCoated;
 extern const float* const kBeckmannCoated;
@@ -45,16 +51,20 @@ struct CoatedLobe {
   R scale = 1;  ///< of the factor
 
   static CoatedLobe facets(const float* table, R alpha, R scale = 1) {
-    return {table, Stencil<R>::at(axes::coat_alpha(alpha), axes::kCoatAlpha), scale};
+    return {table, Stencil<R>::at(axes::coat_alpha(alpha), axes::kCoatedAlpha), scale};
   }
   static CoatedLobe glossy(R gloss) {
-    return {kGlossyCoated, Stencil<R>::at(axes::gloss(gloss), axes::kGloss), R(1)};
+    return {kGlossyCoated, Stencil<R>::at(axes::gloss(gloss), axes::kCoatedGloss), R(1)};
   }
 
   /// G^2 along a direction of |cosine| `z`, for relative index `eta` > 1 and T = `through` there.
   /// Nowhere below half of T: what rounding leaves of it next to the surface is kept from 0.
   R mean_squared(R eta, R z, R through) const {
-    return std::max(through + interpolate_coat(table, width, eta, z), through / 2);
+    using namespace axes;
+    const auto n = Stencil<R>::at(index(eta), kCoatedIndex);
+    const auto d = Stencil<R>::at(coat_direction(z), kCoatDirection);
+    constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatedIndex);
+    return std::max(through + interpolate(table, width, n0, n, n1, d), through / 2);
   }
 };
 

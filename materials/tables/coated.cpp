@@ -98,7 +98,7 @@ void add_facets(const Facets& facets, int row, Spread& lobe) {
   const double shadow = facets.shadow({s, 0, z});
   double seen = 0;
   std::vector<std::pair<double, double>> single;  // cosine and share
-  constexpr int kSlopes = 96, kTurn = 64;
+  constexpr int kSlopes = 384, kTurn = 96;
   crowded(kSlopes, [&](double u, double weight) {
     const double r = alpha * slope(facets, u);
     for (int k = 0; k < kTurn; ++k) {
@@ -201,17 +201,17 @@ void write_product(std::FILE* to) {
 void write_coated(std::FILE* to, const char* name, const std::vector<Spread>& lobes) {
   using namespace axes;
   const int count = int(lobes.size());
-  std::vector<Values> table(std::size_t(count) * kCoatIndex, Values(kNodes));
+  std::vector<Values> table(std::size_t(count) * kCoatedIndex, Values(kNodes));
   parallel(int(table.size()), [&](int k) {
-    const double eta = index_at(double(k % kCoatIndex) / (kCoatIndex - 1));
+    const double eta = index_at(double(k % kCoatedIndex) / (kCoatedIndex - 1));
     Values through(kNodes);
     for (int o = 0; o < kNodes; ++o) through[o] = fresnel_split(directions().z[o], eta).transmitted;
-    const Values mean = scaled_mean(lobes[k / kCoatIndex], through);
+    const Values mean = scaled_mean(lobes[k / kCoatedIndex], through);
     for (int o = 0; o < kNodes; ++o) table[k][o] = mean[o] * mean[o] - through[o];
   });
-  const Grid grid({count, kCoatIndex, kCoatDirection}, [&](const double* x) {
+  const Grid grid({count, kCoatedIndex, kCoatDirection}, [&](const double* x) {
     const auto at = [](double u, int nodes) { return int(std::lround(u * (nodes - 1))); };
-    const Values& line = table[at(x[0], count) * kCoatIndex + at(x[1], kCoatIndex)];
+    const Values& line = table[at(x[0], count) * kCoatedIndex + at(x[1], kCoatedIndex)];
     return Place(x[2]).value(line);
   });
   const Values spline = grid.spline();
@@ -237,11 +237,11 @@ int main(int argc, char** argv) {
   using namespace mms::materials::tables;
   return make_tables(argc, argv, [](std::FILE* to) {
     write_coated(to, "kGgxCoatedTable",
-                 lobes(axes::kCoatAlpha, [](double x) { return facet_lobe<Ggx>(alpha_at(x)); }));
-    write_coated(to, "kBeckmannCoatedTable", lobes(axes::kCoatAlpha, [](double x) {
+                 lobes(axes::kCoatedAlpha, [](double x) { return facet_lobe<Ggx>(alpha_at(x)); }));
+    write_coated(to, "kBeckmannCoatedTable", lobes(axes::kCoatedAlpha, [](double x) {
                    return facet_lobe<Beckmann>(alpha_at(x));
                  }));
-    write_coated(to, "kGlossyCoatedTable", lobes(axes::kGloss, [](double x) {
+    write_coated(to, "kGlossyCoatedTable", lobes(axes::kCoatedGloss, [](double x) {
                    return glossy_lobe(std::expm1(x * std::log1p(axes::kLargestGloss)));
                  }));
     write_product(to);
