@@ -2,6 +2,7 @@
 // Computes the tables of materials/coated.h and writes them as C++ to the named file: run by the
 // build, in some seconds.
 #include <cstdio>
+#include <numbers>
 #include <vector>
 
 #include "base/quadrature.h"
@@ -78,11 +79,11 @@ struct Spread {
   }
 };
 
-/// Numbers in (0, 1) and weights that crowd at both ends.
+/// Numbers in (0, 1) and weights that crowd at both ends; `offset` in (0, 1) of a step.
 template <class F>
-void crowded(int n, const F& f) {
+void crowded(int n, double offset, const F& f) {
   for (int k = 0; k < n; ++k) {
-    const double u = (k + 0.5) / n;
+    const double u = (k + offset) / n;
     f(u * u * (3 - 2 * u), 6 * u * (1 - u) / n);
   }
 }
@@ -98,22 +99,24 @@ void add_facets(const Facets& facets, int row, Spread& lobe) {
   const double shadow = facets.shadow({s, 0, z});
   double seen = 0;
   std::vector<std::pair<double, double>> single;  // cosine and share
-  constexpr int kSlopes = 384, kTurn = 96;
-  crowded(kSlopes, [&](double u, double weight) {
-    const double r = alpha * slope(facets, u);
-    for (int k = 0; k < kTurn; ++k) {
-      const double phi = kPi<double> * (k + 0.5) / kTurn;
+  constexpr int kSlopes = 256, kTurn = 128;
+  for (int k = 0; k < kTurn; ++k) {
+    // A lattice: slopes of one radius for all turns would jump over the horizon as one.
+    const double phi = kPi<double> * (k + 0.5) / kTurn;
+    const double offset = std::fmod((k + 0.5) * std::numbers::phi, 1.0);
+    crowded(kSlopes, offset, [&](double u, double weight) {
+      const double r = alpha * slope(facets, u);
       const double area = (z + s * r * std::cos(phi)) * weight;  // over the surface
-      if (!(area > 0)) continue;
+      if (!(area > 0)) return;
       seen += area;
       const Vec3d h = normalize(Vec3d{r * std::cos(phi), r * std::sin(phi), 1});
       const Vec3d wi = h * (2 * (s * h.x + z * h.z)) - Vec3d{s, 0, z};
-      if (!(wi.z > 0)) continue;
+      if (!(wi.z > 0)) return;
       const double c = std::min(wi.z, 1.0);
       const double masked = (z + shadow) * c / (z * c + shadow * c + z * facets.shadow(wi));
       single.emplace_back(c, area * masked);
-    }
-  });
+    });
+  }
   for (const auto& [c, share] : single) lobe.add(row, c, share / seen);
 }
 
@@ -150,7 +153,7 @@ Spread glossy_lobe(double gloss) {
   Spread lobe;
   for (int o = 0; o < kNodes; ++o) {
     const double z = directions().z[o], y = z * z;
-    crowded(512, [&](double u, double weight) {
+    crowded(512, 0.5, [&](double u, double weight) {
       const double x = latitude.inverse(u, 1 - u, y, 1 - y);
       lobe.add(o, std::sqrt(std::clamp(x, 0.0, 1.0)), weight);
     });
