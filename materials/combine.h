@@ -18,7 +18,7 @@
 /// get
 ///   base: g(wo) g(wi)           (materials/coated.h), whose mean over the lobe is 1 - F
 ///
-/// All are symmetric. A lossless base under a lossless coat then has albedo 1 within 1e-3
+/// All are symmetric. A lossless base under a lossless coat then has albedo 1 within 1e-4
 /// (stretched facets gain 2e-3 at most and lose up to 6%, those of `beckmann` 12%); under every
 /// other it never exceeds 1, as min(F, F') <= F and 1 - max(F, F') <= 1 - F. A specular coat over a
 /// Lambert base is 1 exactly; but near grazing a broad coat loses much: min(F, F') is small where

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/coated.h and writes them as C++ to the named file: run by the
-// build, in some seconds.
+// build, in half a minute of one core.
 #include <cstdio>
 #include <numbers>
 #include <vector>
