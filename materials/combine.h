@@ -19,10 +19,10 @@
 ///   base: g(wo) g(wi)           (materials/coated.h), whose mean over the lobe is 1 - F
 ///
 /// All are symmetric. A lossless base under a lossless coat then has albedo 1 within 1e-4
-/// (stretched facets gain 2e-3 at most and lose up to 6%, those of `beckmann` 12%); under every
-/// other it never exceeds 1, as min(F, F') <= F and 1 - max(F, F') <= 1 - F. A specular coat over a
-/// Lambert base is 1 exactly; but near grazing a broad coat loses much: min(F, F') is small where
-/// F' is.
+/// (2e-4 below a roughness of 0.1; stretched facets gain 2e-3 at most and lose up to 6%, those of
+/// `beckmann` 12%); under every other it never exceeds 1, as min(F, F') <= F and 1 - max(F, F') <=
+/// 1 - F. A specular coat over a Lambert base is 1 exactly; but near grazing a broad coat loses
+/// much: min(F, F') is small where F' is.
 ///
 /// Where the coat is one `glossy` or isotropic `microfacet` and the index above 1, what it reflects
 /// is known: with M(wo) the mean of F' over what it scatters (materials/energy.h) its factor is

@@ -54,16 +54,19 @@ TEST_CASE("a lossless lobe under a lossless coat keeps its energy") {
     std::initializer_list<double> numbers;
   };
   const Row rows[] = {
-      {"microfacet", [](double r) { return microfacet(1, r); }, {0.1, 0.25, 0.35, 0.47, 0.75, 1.0}},
+      {"microfacet", [](double r) { return microfacet(1, r); }, {0.1, 0.2, 0.25, 0.35, 0.47, 0.5, 0.75, 1.0}},
       {"beckmann", [](double r) { return beckmann(1, r); }, {0.1, 0.35, 0.6, 1.0}},
       {"conductor", [](double r) { return conductor(1, 1e25, r); }, {0.3}},
       {"glossy", [](double g) { return glossy(1, g); }, {0.0, 0.7, 4.0, 40.0, 1000.0}}};
   for (const Row& row : rows) {
-    const Range a = under_coats(row.make, row.numbers, {1.02, 1.1, 1.5, 4.0}, 0, 12);
+    const Range a = under_coats(row.make, row.numbers, {1.01, 1.1, 1.5, 4.0}, 0, 12);
     CHECK_MESSAGE(a.least > 1 - 1e-4, row.name, ": ", a.least);
     CHECK_MESSAGE(a.most < 1 + 1e-4, row.name, ": ", a.most);
     MESSAGE(row.name, " under a coat: albedo from ", a.least, " to ", a.most);
   }
+  const Range narrow = under_coats(rows[0].make, {0.08}, {1.03, 1.5, 3.5}, 0, 12);
+  CHECK(narrow.least > 1 - 2e-4);
+  CHECK(narrow.most < 1 + 1e-4);
 }
 
 TEST_CASE("plastic under a polished coat loses little, and never gains") {

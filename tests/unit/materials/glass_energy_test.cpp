@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "base/quadrature.h"
 #include "tests/sanitized.h"
@@ -71,14 +72,15 @@ struct Interface {
   }
 
   /// What comes along `o` and leaves for good at the first facet: the mean over the normals that
-  /// are seen of both ways on, each with what masks it. `n` points along each axis, by the middle
-  /// of cells.
+  /// are seen of both ways on, each with what masks it. A lattice of `n` points along each axis: a
+  /// grid's rows would meet the horizon and the critical angle as one.
   double once(Vec3d o, int n) const {
     double sum = 0;
-    for (int i = 0; i < n; ++i)
-      for (int k = 0; k < n; ++k) {
+    for (int k = 0; k < n; ++k) {
+      const double offset = std::fmod((k + 0.5) * std::numbers::phi, 1.0);
+      for (int i = 0; i < n; ++i) {
         double weight = 0;
-        const Vec3d h = facets.seen(o, (k + 0.5) / n, (i + 0.5) / n, weight);
+        const Vec3d h = facets.seen(o, (k + 0.5) / n, (i + offset) / n, weight);
         const double c = dot(o, h), f = reflectance(c);
         const Vec3d r = h * (2 * c) - o;
         if (r.z > 0) sum += weight * f * unmasked(o, r);
@@ -87,6 +89,7 @@ struct Interface {
         const Vec3d t = h * (c / eta - ct) - o / eta;
         if (t.z < 0) sum += weight * (1 - f) * unmasked(o, t);
       }
+    }
     return sum / n / n;
   }
 
@@ -235,6 +238,6 @@ TEST_CASE("white rough glass is lossless within 1e-3, from both sides and up to 
 }
 
 TEST_CASE("white rough glass of stretched facets loses and gains little") {
-  check_stretched(kGgx, {{0.3, 1e-3, 1.5e-3}, {-0.6, 1e-3, 2e-3}, {0.9, 2e-3, 5e-3}});
-  check_stretched(kBeckmann, {{0.3, 1e-3, 1.5e-3}, {-0.6, 2e-3, 4e-3}, {0.9, 3e-3, 8e-3}});
+  check_stretched(kGgx, {{0.3, 1e-3, 1e-3}, {-0.6, 1e-3, 1e-3}, {0.9, 1e-3, 2e-3}});
+  check_stretched(kBeckmann, {{0.3, 1e-3, 1e-3}, {-0.6, 1e-3, 2e-3}, {0.9, 1e-3, 8e-3}});
 }
