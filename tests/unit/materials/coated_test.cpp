@@ -54,7 +54,9 @@ TEST_CASE("a lossless lobe under a lossless coat keeps its energy") {
     std::initializer_list<double> numbers;
   };
   const Row rows[] = {
-      {"microfacet", [](double r) { return microfacet(1, r); }, {0.1, 0.2, 0.25, 0.35, 0.47, 0.5, 0.75, 1.0}},
+      {"microfacet",
+       [](double r) { return microfacet(1, r); },
+       {0.1, 0.2, 0.25, 0.35, 0.47, 0.5, 0.75, 1.0}},
       {"beckmann", [](double r) { return beckmann(1, r); }, {0.1, 0.35, 0.6, 1.0}},
       {"conductor", [](double r) { return conductor(1, 1e25, r); }, {0.3}},
       {"glossy", [](double g) { return glossy(1, g); }, {0.0, 0.7, 4.0, 40.0, 1000.0}}};
