@@ -56,6 +56,26 @@ TEST_CASE("no time is too short for a sample of each pixel") {
   CHECK(report(folder, "--time 0.000001 --error 0.001 --size 100x60 -o t.exr").at("samples") >= 1);
 }
 
+TEST_CASE(
+    "a picture that ends by its error says how many samples it took, and goes on to the same") {
+  const Folder folder;
+  folder.write("s.mms", "surface \"s\" bsdf = dielectric(1.5); end\n");
+  const std::string options = "--size 64x48 --filter box --error 0.04 ";
+  const json whole = report(folder, options + "-o whole.film");
+  CHECK(whole.at("error") <= 0.04);
+  CHECK(whole.at("mean_samples") > whole.at("samples"));
+  const json even = report(folder, "--size 16x16 --samples 3 -o even.png");
+  CHECK(even.at("mean_samples") == 3);
+  const std::string text = folder.mms("render s.mms " + options + "-o text.png").out;
+  CHECK(contains(text, " or more, "));
+  CHECK(contains(text, " on average, "));
+  // Cut short, then resumed.
+  report(folder, options + "--time 0.000001 -o part.film");
+  CHECK(folder.read("part.film") != folder.read("whole.film"));
+  report(folder, options + "--resume -o part.film");
+  CHECK(folder.read("part.film") == folder.read("whole.film"));
+}
+
 TEST_CASE("light that is too bright is told from light that is not finite") {
   const Folder folder;
   const auto said = [&](const std::string& emission) {
