@@ -60,11 +60,8 @@ struct CoatedLobe {
   /// G^2 along a direction of |cosine| `z`, for relative index `eta` > 1 and T = `through` there.
   /// Nowhere below half of T: what rounding leaves of it next to the surface is kept from 0.
   R mean_squared(R eta, R z, R through) const {
-    using namespace axes;
-    const auto n = Stencil<R>::at(index(eta), kCoatedIndex);
-    const auto d = Stencil<R>::at(coat_direction(z), kCoatDirection);
-    constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatedIndex);
-    return std::max(through + interpolate(table, width, n0, n, n1, d), through / 2);
+    const R above = interpolate_coat<axes::kCoatedIndex>(table, width, eta, z);
+    return std::max(through + above, through / 2);
   }
 };
 

@@ -445,13 +445,14 @@ inline R transmitted_share(R mean_here, R mean_there, R eta) {
   return there / (mean_here + there);
 }
 
-/// What the table of a coat holds for a lobe's width, relative index `eta` > 1 and |cosine| `z`.
-template <class R>
+/// What the table of a coat holds for a lobe's width, relative index `eta` > 1 and |cosine| `z`;
+/// `Indices` are its nodes along the index.
+template <int Indices = axes::kCoatIndex, class R>
 inline R interpolate_coat(const float* table, const Stencil<R>& width, R eta, R z) {
   using namespace axes;
-  const auto n = Stencil<R>::at(index(eta), kCoatIndex);
+  const auto n = Stencil<R>::at(index(eta), Indices);
   const auto d = Stencil<R>::at(coat_direction(z), kCoatDirection);
-  constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatIndex);
+  constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(Indices);
   return interpolate(table, width, n0, n, n1, d);
 }
 

@@ -218,10 +218,7 @@ TEST_CASE("a picture that ends by its error takes fewer samples than an even one
     o.samples = 1 << 16;
     const Rendered r = picture();
     stated += r.report.rmse * r.report.rmse / kSeeds;
-    double square = 0;
-    for (std::size_t i = 0; i < r.film.xyz.size(); ++i)
-      square += std::pow(r.film.xyz[i][1] - reference.film.xyz[i][1], 2);
-    real += (square / double(r.film.xyz.size()) - std::pow(reference.report.rmse, 2)) / kSeeds;
+    real += (mean_square(r.film, reference.film) - std::pow(reference.report.rmse, 2)) / kSeeds;
     const double d = mean(r) - mean(reference);
     shift += d / kSeeds;
     shifts += d * d / kSeeds;

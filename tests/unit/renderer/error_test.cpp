@@ -54,11 +54,7 @@ Errors of_renders(const vm::Program& program, const Scene& scene, RenderOptions 
     const auto r = render(program, scene, o);
     REQUIRE(bool(r));
     stated += r->report.rmse * r->report.rmse;
-    for (std::size_t i = 0; i < r->film.xyz.size(); ++i) {
-      const double d = r->film.xyz[i][1] - reference.film.xyz[i][1];
-      real += d * d / double(r->film.xyz.size());
-    }
-    real -= reference.report.rmse * reference.report.rmse;
+    real += mean_square(r->film, reference.film) - reference.report.rmse * reference.report.rmse;
   }
   return {std::sqrt(stated / seeds), std::sqrt(real / seeds)};
 }
