@@ -20,6 +20,9 @@ Interval roomy(double low, double high) {
   return vm::reals(low - room, high + room);
 }
 
+/// How often a flight through the middle of a volume looks for what is found at collisions only.
+constexpr double kLeastCollisions = 4;
+
 /// The inputs that any of `values` of an entry reads and that `box` does not fix.
 std::vector<int> positions_read(const vm::Descriptor& d, std::span<const vm::Output> outputs) {
   std::uint32_t variables = 0;
@@ -82,6 +85,7 @@ MajorantGrid majorants_of(const vm::Program& program, const vm::Descriptor& d, c
   const Bounds all = bounds(o.shape);
   const Vec3d cell = (all.high - all.low) / double(n);
   std::vector<float> values;
+  std::vector<bool> met;  // of the cells: whether a flight is to meet them, however thin
   for (int i = 0; i < n * n * n; ++i) {
     Bounds part;
     part.low = all.low + cell * Vec3d{double(i % n), double(i / n % n), double(i / n / n)};
@@ -90,18 +94,20 @@ MajorantGrid majorants_of(const vm::Program& program, const vm::Descriptor& d, c
     set_positions(box, part, o.transform);
     vm::Enclosure e;
     if (entry.function) e = machine.run(*entry.function, box);
+    met.push_back(emits);
     const auto most = [&](const vm::ValueSource& v) {
       const Interval r =
           v.constant ? vm::interval_of(program.constants[v.index]) : e.results[v.index];
-      return std::max(r.hi, 0.0);  // negative coefficients count as 0
+      met.back() = met.back() || !r.has_number();  // to be told
+      return std::max(r.hi, 0.0);                  // negative coefficients count as 0
     };
     const double found = most(entry.scattering) + most(entry.absorption);
     values.push_back(std::min(float(vm::float_above(found)), float(bound)));
   }
-  if (emits) {
-    const float least = *std::max_element(values.begin(), values.end()) / 4;
-    for (float& v : values) v = std::max(v, least);
-  }
+  const float least = std::max(*std::max_element(values.begin(), values.end()) / 4,
+                               float(kLeastCollisions / length(all.high - all.low)));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (met[i]) values[i] = std::max(values[i], least);
   return {all, n, std::move(values)};
 }
 

@@ -16,8 +16,9 @@ vm::Box box_of(const Object& o);
 
 /// The largest scattering + absorption of the volume `d` at any wavelength in each of
 /// kMajorantCells^3 parts of the box around `o`, and nowhere above `bound`. Infinite where none is
-/// found and `bound` is infinite. Where the volume emits, no cell has less than a quarter of the
-/// largest: light is found at collisions.
+/// found and `bound` is infinite. Light is found at collisions, and so are coefficients that are
+/// not a number: where the volume emits, and where it has no number at all, no cell has less than a
+/// quarter of the largest, nor less than makes four collisions along the diagonal.
 MajorantGrid majorants_of(const vm::Program& program, const vm::Descriptor& d, const Object& o,
                           double bound, bool emits);
 inline constexpr int kMajorantCells = 16;

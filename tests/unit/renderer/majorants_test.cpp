@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "base/hash.h"
 #include "base/warp.h"
 #include "scenes.h"
@@ -94,4 +96,17 @@ TEST_CASE("light of a volume that removes none or little is found too") {
   dark.replace(dark.find("\"constant\": 1"), 13, "\"constant\": 0");
   const Mean m = mean_luminance(run(p, scene_of(p, dark), options(16, 256)).film);
   CHECK(std::abs(m.value - expected * 106.857 / 105.671) < 4 * m.error + 1e-4);
+}
+
+TEST_CASE("a volume that only emits shines: the integral along the ray") {
+  // 3 z^2 over z in [-1, 1]; with a bound of what it removes or without.
+  std::string dark = kNarrow;
+  dark.replace(dark.find("\"constant\": 1"), 13, "\"constant\": 0");
+  for (const char* bound : {"", "bound = 0.1;"}) {
+    const vm::Program p =
+        compile(fmt::format("volume a\n emission = 3 * $object_position.z^2; {}\nend\n", bound));
+    const Mean m = mean_luminance(run(p, scene_of(p, dark), options(16, 256)).film);
+    CHECK(std::abs(m.value - 2 * 106.857 / 105.671) < 4 * m.error + 1e-4);
+    CHECK(m.error < 0.02);
+  }
 }
