@@ -224,7 +224,7 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
     scripts_.run(d, EntryKind::Shade, lanes_);
     for (int i = 0; i < n; ++i) {
       Flight& f = flights[requests[i].flight];
-      const Coefficients c = coefficients(d, f, i);
+      const Coefficients c = coefficients(d, f, i, paths[f.path]);
       if (need == Need::Collision)
         collide(f, c, paths[f.path]);
       else
@@ -255,12 +255,21 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
   scripts_.run(d, EntryKind::Pass, lanes_);
   for (int i = 0; i < n; ++i) {
     Flight& f = flights[requests[i].flight];
+    const PathView& path = paths[f.path];
     const bool lost = scripts_.given_up(i);
     cross(f, points_[i],
-          lost ? Spectrumf(1.0f) : unit_clamped(scripts_.spectrum(d.pass.scattering, i)),
-          lost ? Spectrumf() : unit_clamped(scripts_.spectrum(d.pass.absorption, i)),
-          paths[f.path]);
+          lost ? Spectrumf(1.0f) : unit_clamped(answered(d.pass.scattering, i, path)),
+          lost ? Spectrumf() : unit_clamped(answered(d.pass.absorption, i, path)), path);
   }
+}
+
+/// What the last run says for a lane. Where that is not a number the sample is dropped and counted,
+/// whatever stands in for it on the way.
+Spectrumf Flights::answered(const vm::ValueSource& v, int lane, const PathView& path) const {
+  const Spectrumf s = scripts_.spectrum(v, lane);
+  for (int k = 0; k < kWavelengths; ++k)
+    if (std::isnan(s[k])) *path.radiance = Spectrumf(std::numeric_limits<float>::quiet_NaN());
+  return s;
 }
 
 /// A semi-transparent surface: scattered there, or straight through with (1 - s)(1 - a).

@@ -130,7 +130,9 @@ class Flights {
   void answer(std::vector<Flight>& flights, const std::vector<PathView>& paths,
               std::span<const Request> requests);
   bool along_media(Flight& f, float to, const PathView& path, Need& need);
-  Coefficients coefficients(const vm::Descriptor& d, const Flight& f, int lane);
+  Spectrumf answered(const vm::ValueSource& v, int lane, const PathView& path) const;
+  Coefficients coefficients(const vm::Descriptor& d, const Flight& f, int lane,
+                            const PathView& path);
   void add_even(Flight& f, const Coefficients& c, const PathView& path);
   void collide(Flight& f, const Coefficients& c, const PathView& path);
   void pass_false_surface(Flight& f, const Hit& hit);

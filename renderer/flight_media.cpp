@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Coefficients are not negative; what is not a number counts as nothing there.
+/// Coefficients are not negative.
 Spectrumf not_negative(const Spectrumf& s) {
   return Spectrumf::map([](float x) { return x > 0 ? x : 0.0f; }, s);
 }
@@ -98,11 +98,12 @@ bool Flights::through_even(Flight& f, float length, const PathView& path) {
 }
 
 /// What the last run says of a volume, for a lane: nothing where it gave up.
-Coefficients Flights::coefficients(const vm::Descriptor& d, const Flight& f, int lane) {
+Coefficients Flights::coefficients(const vm::Descriptor& d, const Flight& f, int lane,
+                                   const PathView& path) {
   if (scripts_.given_up(lane)) return {};
-  Coefficients c{not_negative(scripts_.spectrum(d.shade.scattering, lane)),
-                 not_negative(scripts_.spectrum(d.shade.absorption, lane)),
-                 not_negative(scripts_.spectrum(d.shade.emission, lane))};
+  Coefficients c{not_negative(answered(d.shade.scattering, lane, path)),
+                 not_negative(answered(d.shade.absorption, lane, path)),
+                 not_negative(answered(d.shade.emission, lane, path))};
   const CompiledDescriptor& volume = world_.compiled.of(&d);
   if (volume.emits) {
     // The shape of emission in a volume is a phase function, 1 for the isotropic one.

@@ -59,7 +59,8 @@ Spectrumf scripted_emission(const Compiled& compiled, const Scripts& scripts,
                             const vm::Descriptor& d, EntryKind entry, int lane,
                             const SurfacePoint& s, Vec3d to, std::vector<float>& scratch) {
   const vm::Entry& e = entry_of(d, entry);
-  const Spectrumf emission = scripts.spectrum(e.emission, lane);
+  const Spectrumf emission =
+      Spectrumf::map([](float x) { return x < 0 ? 0.0f : x; }, scripts.spectrum(e.emission, lane));
   if (emission.is_black()) return emission;
   const CompiledDescriptor& c = compiled.of(&d);
   const materials::Layout& layout = entry == EntryKind::Emit ? c.emit_emission : c.shade_emission;

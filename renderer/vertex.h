@@ -33,7 +33,8 @@ inline bool consistent(const SurfacePoint& s, const Frame<double>& frame, Vec3d 
 /// lies in something else. `params`: the numbers of `layout`.
 void immerse(const materials::Layout& layout, const Spectrumf& outside, float* params);
 
-/// Radiance that a scripted surface sends from lane `lane` of the last run towards `to`.
+/// Radiance that a scripted surface sends from lane `lane` of the last run towards `to`: what is
+/// negative counts as 0.
 Spectrumf scripted_emission(const Compiled& compiled, const Scripts& scripts,
                             const vm::Descriptor& d, EntryKind entry, int lane,
                             const SurfacePoint& s, Vec3d to, std::vector<float>& scratch);

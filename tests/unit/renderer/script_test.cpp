@@ -220,6 +220,54 @@ TEST_CASE("a constant that is not a number and a gradient that is none are named
   CHECK(b.settings.find("--set uv=[") != std::string::npos);
 }
 
+TEST_CASE("what is not finite of a volume, and of what a surface lets through, is told") {
+  const auto check_told = [](const std::string& script, const std::string& scene,
+                             const std::string& output) {
+    const vm::Program p = compile(script);
+    const Result<Rendered> r = render(p, scene_of(p, scene), options(8, 16));
+    REQUIRE(bool(r));
+    CHECK(r->report.dropped.nan > 0);
+    REQUIRE_MESSAGE(r->report.not_finite.size() == 1, output);
+    CHECK(r->report.not_finite[0].descriptor == "a");
+    CHECK(r->report.not_finite[0].output == output);
+  };
+  for (const char* output : {"scattering", "absorption", "emission"})
+    check_told(fmt::format("volume a\n {} = sqrt($position.x); bound = 2;\nend\n", output), kBall,
+               output);
+  check_told("surface a\n scattering = sqrt($uv.x - 0.5);\nend\n", kWall, "scattering");
+  check_told("surface a\n scattering = 0.5; absorption = sqrt($uv.x - 0.5);\nend\n", kWall,
+             "absorption");
+}
+
+TEST_CASE("negative emission counts as none, of surfaces and of volumes") {
+  for (const char* form :
+       {"surface a\n emission = {};\nend\n", "surface a\n scattering = 0.5; emission = {};\nend\n",
+        "volume a\n absorption = 0.1; bound = 0.1; emission = {};\nend\n"}) {
+    const auto picture = [&](const char* emission) {
+      const vm::Program p = compile(fmt::format(fmt::runtime(form), emission));
+      return run(p, scene_of(p, kBall), options(16, 4)).film.xyz;
+    };
+    CHECK(picture("$position.x") == picture("max($position.x, 0.0)"));
+    CHECK_FALSE(picture("$position.x") == picture("0.0"));
+  }
+}
+
+TEST_CASE("negative emission counts as none, of surfaces and of volumes") {
+  const auto picture = [](const std::string& script, const std::string& scene) {
+    const vm::Program p = compile(script);
+    return run(p, scene_of(p, scene), options(16, 4)).film.xyz;
+  };
+  for (const char* form :
+       {"surface a\n emission = {};\nend\n", "surface a\n scattering = 0.5; emission = {};\nend\n",
+        "volume a\n absorption = 0.1; bound = 0.1; emission = {};\nend\n"}) {
+    const auto of = [&](const char* emission) {
+      return picture(fmt::format(fmt::runtime(form), emission), kBall);
+    };
+    CHECK(of("$position.x") == of("max($position.x, 0.0)"));
+    CHECK_FALSE(of("$position.x") == of("0.0"));
+  }
+}
+
 TEST_CASE("a lossless material is as bright as its light, in a render") {
   // To what each keeps by quadrature (tests/unit/materials): 1e-3, and the least of either.
   for (const char* bsdf : {"matte(1)",
