@@ -200,6 +200,8 @@ Value Elaborator::convert(const Value& v, TypeId to, Span span, Span why) {
   if (why) d.note(why, "the type is stated here");
   if (TypeTable::is_number(v.type) && (to == kInteger || to == kReal))
     d.help(fmt::format("write `{}(...)` to convert it", types_.spell(to)));
+  if (to == kSpectrum && types_.is_array(v.type) && v.parts.size() == 3)
+    d.help("for a colour of red, green and blue write `rgb(r, g, b)`");
   if (v.type == kReal && to == kMaterial)
     d.help("a material is made by a function, for example `matte(0.5)`");
   if (v.type == kSpectrum && to == kMaterial)
