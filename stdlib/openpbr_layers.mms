@@ -41,17 +41,11 @@ openpbr_width openpbr_stretched(real roughness, anisotropy)
     keep  = sqrt(sqrt(2.0 * broad / (1.0 + broad * broad)));
     return openpbr_width(roughness * keep, clamp(anisotropy / 0.9, 0.0, 1.0));
 
-/// A mirror that is as rough as OpenPBR says, without Fresnel's factor: `microfacet` where it is
-/// anisotropic, else `glossy` of the same brightness at its middle, as only that keeps all energy
-/// over a base (`fresnel_mix`).
+/// The facets of OpenPBR's coat and of what is specular on its base, without Fresnel's factor.
 /// >>> openpbr_gloss(1.0, 0.3, 0.0)
 material openpbr_gloss(spectrum colour, real roughness, anisotropy)
-    alpha = max(roughness * roughness, 1e-4);
     width = openpbr_stretched(roughness, anisotropy);
-    return select
-        glossy(colour, max(0.5 / (alpha * alpha) - 0.5, 0.0)), if anisotropy <= 0.0;
-        microfacet(colour, width.roughness, width.anisotropy) otherwise;
-    end;
+    return microfacet(colour, width.roughness, width.anisotropy);
 
 /// How much of the colour under a coat is left by light that goes to and fro between both: 1 for
 /// white. `amount` in [0, 1] is OpenPBR's coat_darkening times its coat_weight.
@@ -182,9 +176,9 @@ openpbr_medium openpbr_inside(
 /// volume of the same name, which both transmission and subsurface need; emission is
 /// `openpbr_emission`, and opacity the output `scattering` of the surface.
 ///
-/// The specular part of an opaque base is a `glossy` (`openpbr_gloss`), coats and weights are
-/// indices (`openpbr_index`), fuzz is a `layer` of `sheen`; a film on
-/// rough glass is smooth, and one on an opaque base has the colours of normal incidence everywhere.
+/// Weights of what is specular, and of the coat, are indices (`openpbr_index`), fuzz is a `layer` of
+/// `sheen`; a film on rough glass is smooth, and one on an opaque base has the colours of normal
+/// incidence everywhere.
 /// >>> openpbr(base_color = 0.5, base_metalness = 1.0)
 /// >>> openpbr(base_color = rgb(0.6, 0.05, 0.02), coat_weight = 1.0)
 material openpbr(
