@@ -160,6 +160,45 @@ TEST_CASE("openpbr: params at the ends of their ranges give light, and no more t
   }
 }
 
+TEST_CASE("openpbr: highlights are those of GGX, whose alpha is the square of the roughness") {
+  // Over a black base, near the mirror direction: F D G2 / (4 c c'), D and G2 as Walter et al.
+  // (2007) and Heitz (2014) have them; the coat's index is 1.6, the base's 1.5.
+  const auto ggx = [](double roughness, double c, double tilt) {
+    // wo and wi at `tilt` to both sides of a half vector at cosine c to the normal, in one plane.
+    const double a = roughness * roughness, angle = std::acos(c);
+    const double zo = std::cos(angle + tilt), zi = std::cos(angle - tilt);
+    const auto lambda = [&](double z) {
+      return (std::sqrt(1 + a * a * (1 - z * z) / (z * z)) - 1) / 2;
+    };
+    const double d = a * a / (3.14159265358979 * std::pow(c * c * (a * a - 1) + 1, 2));
+    return d / (1 + lambda(zo) + lambda(zi)) / (4 * zo * zi);
+  };
+  for (const bool coated : {false, true})
+    for (const double roughness : {0.2, 0.3, 0.5}) {
+      const std::string r = std::to_string(roughness);
+      const OpenPbr p(coated ? Settings{{"base_weight", "0"},
+                                        {"specular_weight", "0"},
+                                        {"coat_weight", "1"},
+                                        {"coat_roughness", r}}
+                             : Settings{{"base_weight", "0"}, {"specular_roughness", r}});
+      REQUIRE_MESSAGE(p.context, p.log);
+      const double f0 = coated ? std::pow(0.6 / 2.6, 2) : 0.04;
+      for (const double c : {1.0, 0.995, 0.98}) {
+        const double tilt = 0.1, angle = std::acos(c);
+        const float wavelengths[8] = {550e-9f, 430e-9f, 470e-9f, 510e-9f,
+                                      590e-9f, 630e-9f, 670e-9f, 710e-9f};
+        const MMsInput input{"wavelength", wavelengths};
+        const MMsPoints points{1, &input, 1};
+        const float wo[3] = {float(std::sin(angle + tilt)), 0, float(std::cos(angle + tilt))};
+        const float wi[3] = {float(std::sin(angle - tilt)), 0, float(std::cos(angle - tilt))};
+        float f[8];
+        REQUIRE(mmsEvalBsdf(p.context, p.surface(), &points, wo, wi, f));
+        // Fresnel's factor of angles below 20 degrees is f0 within 2 %; further bounces add less.
+        CHECK(double(f[0]) == doctest::Approx(f0 * ggx(roughness, c, tilt)).epsilon(0.03));
+      }
+    }
+}
+
 TEST_CASE("openpbr: every level of optimisation gives the same bits") {
   const Settings settings{{"base_color", "rgb(0.7, 0.3, 0.2)"},
                           {"base_metalness", "0.4"},
