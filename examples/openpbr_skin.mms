@@ -1,6 +1,5 @@
 // Something like skin by the library's OpenPBR surface: light enters, wanders and leaves; red goes
-// the furthest. The volume of the same name is what lies inside. Light finds in and out by chance, so
-// this wants a few hundred samples.
+// the furthest. The volume of the same name is what lies inside.
 param spectrum colour = rgb(0.85, 0.55, 0.42), label = "Colour";
 param real radius = 0.12 in [0.001, 10], unit = "m", label = "Depth";
 

@@ -177,8 +177,9 @@ openpbr_medium openpbr_inside(
 /// `openpbr_emission`, and opacity the output `scattering` of the surface.
 ///
 /// Weights of what is specular, and of the coat, are indices (`openpbr_index`), fuzz is a `layer` of
-/// `sheen`; a film on rough glass is smooth, and one on an opaque base has the colours of normal
-/// incidence everywhere.
+/// `sheen`; subsurface is entered and left like a `translucent` under the facets, which is what
+/// `subsurface_color` is fitted for, and not bent; a film on rough glass is smooth, and one on an
+/// opaque base has the colours of normal incidence everywhere.
 /// >>> openpbr(base_color = 0.5, base_metalness = 1.0)
 /// >>> openpbr(base_color = rgb(0.6, 0.05, 0.02), coat_weight = 1.0)
 material openpbr(
@@ -210,21 +211,22 @@ material openpbr(
         matte(base), if base_diffuse_roughness <= 0.0;
         rough_matte(base, base_diffuse_roughness) otherwise;
     end;
+    // What lies inside is entered and left as evenly as the fit of `openpbr_inside` takes it; a sheet
+    // without an inside scatters to both of its sides.
+    onward = 0.5 * (1.0 + clamp(subsurface_scatter_anisotropy, -1.0, 1.0));
+    deep   = select
+        mix(matte(subsurface_color), translucent(subsurface_color), onward),
+            if geometry_thin_walled;
+        translucent(1.0) otherwise;
+    end;
     below  = openpbr_index_below(specular_ior, specular_weight, coat_ior, coat_weight);
     opaque = fresnel_mix(
-        diffuse,
+        mix(diffuse, deep, saturate(subsurface_weight)),
         openpbr_gloss(specular_color, specular_roughness, specular_roughness_anisotropy),
         openpbr_filmed(below, thin_film_weight, film, thin_film_ior)
     );
 
-    // Glass and subsurface are one interface; what tells them apart is inside.
-    through = saturate(transmission_weight);
-    share   = 1.0 - (1.0 - through) * (1.0 - saturate(subsurface_weight));
-    tint    = select
-        mix(spectrum(1.0), transmission_color, through / max(share, 1e-9)),
-            if transmission_depth <= 0.0;
-        spectrum(1.0) otherwise;
-    end;
+    tint = select transmission_color, if transmission_depth <= 0.0; spectrum(1.0) otherwise; end;
     bent = select
         abbe_glass(
             specular_ior,
@@ -234,26 +236,21 @@ material openpbr(
         spectrum(specular_ior) otherwise;
     end;
     width = openpbr_stretched(specular_roughness, specular_roughness_anisotropy);
-    clear = mix(
+    glass = mix(
         dielectric(bent, width.roughness, specular_color, tint, width.anisotropy),
         film_dielectric(bent, thin_film_ior, film, $wavelength),
         saturate(thin_film_weight)
     );
-
-    // A sheet without an inside: a pane, and a leaf that scatters to both of its sides.
-    onward = 0.5 * (1.0 + clamp(subsurface_scatter_anisotropy, -1.0, 1.0));
-    sheet  = mix(
-        mix(matte(subsurface_color), translucent(subsurface_color), onward),
-        slab(specular_ior, 1.0, absorption_from(transmission_color, 1.0)),
-        through / max(share, 1e-9)
-    );
-    other = select sheet, if geometry_thin_walled; clear otherwise; end;
+    pane  = slab(specular_ior, 1.0, absorption_from(transmission_color, 1.0));
+    clear = select pane, if geometry_thin_walled; glass otherwise; end;
 
     metal = saturate(specular_weight) * openpbr_metal(
         base, specular_color, specular_roughness, specular_roughness_anisotropy,
         thin_film_weight, film, thin_film_ior
     );
-    body  = mix(mix(opaque, other, share), metal, saturate(base_metalness));
+    body = mix(
+        mix(opaque, clear, saturate(transmission_weight)), metal, saturate(base_metalness)
+    );
     shown = coat(
         openpbr_gloss(1.0, coat_roughness, coat_roughness_anisotropy),
         body,

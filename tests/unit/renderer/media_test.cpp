@@ -130,6 +130,27 @@ TEST_CASE("strongly coloured media: tentative collisions scatter as the closed f
   }
 }
 
+TEST_CASE("openpbr: a deep body sends back its subsurface_color") {
+  // A ball of 500 mean free paths in even light; the fit of colours is good to 0.005 (Kulla and
+  // Conty 2017).
+  for (const double colour : {0.2, 0.5, 0.8}) {
+    const vm::Program p = compile(fmt::format(
+        "surface s bsdf = openpbr(subsurface_weight = 1.0, specular_weight = 0.0); end\n"
+        "volume s\n"
+        "  inside = openpbr_inside(subsurface_weight = 1.0, subsurface_color = {}, "
+        "subsurface_radius = 0.002, subsurface_radius_scale = 1.0);\n"
+        "  scattering = inside.scattering; absorption = inside.absorption;\n"
+        "end\n",
+        colour));
+    RenderOptions o = options(16, kSanitized ? 4 : 128);
+    o.max_depth = 2000;
+    const Scene ball = scene_of(p, R"({"camera": {"position": [0, 0, 5], "target": [0, 0, 0],
+      "fov": 10}, "environment": {"constant": 1}, "objects": [{"sphere": {}, "test": true}]})");
+    const Mean seen = mean_luminance(run(p, ball, o).film);
+    CHECK_MESSAGE(std::abs(seen.value - colour) < 4 * seen.error + 0.005, seen.value);
+  }
+}
+
 TEST_CASE("a higher priority takes the place of a lower volume") {
   for (const bool varies : {false, true}) {
     CAPTURE(varies);
