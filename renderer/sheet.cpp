@@ -25,22 +25,25 @@ std::string find_font() {
   return "";
 }
 
-/// The size of letters, at most `size`, at which every caption is no wider than `width`.
+/// The size of letters, at most `size`, at which no line of a caption is wider than `width`.
 int fitting_size(const std::vector<SheetTile>& tiles, const std::string& font, int width,
                  int size) {
   int widest = width;
-  for (const SheetTile& tile : tiles) {
-    const OIIO::ROI box = OIIO::ImageBufAlgo::text_size(tile.caption, size, font);
-    if (box.defined()) widest = std::max(widest, box.width());
-  }
+  for (const SheetTile& tile : tiles)
+    for (const std::string& line : tile.caption) {
+      const OIIO::ROI box = OIIO::ImageBufAlgo::text_size(line, size, font);
+      if (box.defined()) widest = std::max(widest, box.width());
+    }
   return std::max(6, size * width / widest);
 }
 
 }  // namespace
 
 Sheet in_module::sheet(const std::vector<SheetTile>& tiles, int width, int height, int columns) {
+  std::size_t lines = 1;
+  for (const SheetTile& tile : tiles) lines = std::max(lines, tile.caption.size());
   const int size = std::clamp(width / 13, 9, 28), strip = size * 7 / 4;
-  const int across = width + kMargin, down = height + strip + kMargin;
+  const int across = width + kMargin, down = height + int(lines) * strip + kMargin;
   const int rows = (int(tiles.size()) + columns - 1) / columns;
   OIIO::ImageBuf image(
       OIIO::ImageSpec(columns * across + kMargin, rows * down + kMargin, 3, OIIO::TypeDesc::UINT8));
@@ -54,10 +57,14 @@ Sheet in_module::sheet(const std::vector<SheetTile>& tiles, int width, int heigh
     if (!tile.pixels.empty())
       image.set_pixels(OIIO::ROI(x, x + width, y, y + height, 0, 1, 0, 3), OIIO::TypeDesc::UINT8,
                        tile.pixels.data());
-    if (!font.empty() && !tile.caption.empty())
-      OIIO::ImageBufAlgo::render_text(image, x + width / 2, y + height + strip / 2, tile.caption,
-                                      letters, font, ink, OIIO::ImageBufAlgo::TextAlignX::Center,
+    if (font.empty()) continue;
+    int below = y + height + strip / 2;
+    for (const std::string& line : tile.caption) {
+      OIIO::ImageBufAlgo::render_text(image, x + width / 2, below, line, letters, font, ink,
+                                      OIIO::ImageBufAlgo::TextAlignX::Center,
                                       OIIO::ImageBufAlgo::TextAlignY::Center);
+      below += strip;
+    }
   }
   Sheet sheet{image.spec().width, image.spec().height, {}, !font.empty()};
   sheet.pixels.resize(std::size_t(sheet.width) * std::size_t(sheet.height) * 3);

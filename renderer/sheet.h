@@ -11,7 +11,7 @@ namespace mms::renderer {
 
 struct SheetTile {
   std::vector<unsigned char> pixels;  ///< 8-bit sRGB, three a pixel, row by row; empty is grey
-  std::string caption;
+  std::vector<std::string> caption;   ///< lines
 };
 
 struct Sheet {

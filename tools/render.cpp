@@ -95,7 +95,7 @@ std::optional<Error> read_numbers(RenderRequest& r) {
     if (auto e = read("--turntable", r.turntable, 1, 9999, r.frames,
                       "how many pictures make one turn, as in --turntable 48"))
       return e;
-  if ((!r.sweep.empty()) + (r.frames > 0) + r.watch > 1)
+  if ((!r.sweeps.empty()) + (r.frames > 0) + r.watch > 1)
     return Error{"mms render", "one of --sweep, --turntable and --watch at a time",
                  "leave the others out"};
   return read_picture_options(r);
@@ -150,8 +150,8 @@ void add_render_options(Verb& verb, RenderRequest& r) {
             {"niederreiter", "sobol", "random", "unscrambled"}});
   verb.add({"--checkpoint", &r.checkpoint, "SECONDS",
             "Keep what is there in PATH.film so often; 0 is never [60]"});
-  verb.add({"--sweep", &r.sweep, "PARAM=A:B:N",
-            "A sheet of N pictures with captions, a param from A to B"});
+  verb.add({"--sweep", &r.sweeps, "PARAM=A:B:N",
+            "A sheet of N pictures with captions, a param from A to B; a second one goes down"});
   verb.add({"--turntable", &r.turntable, "N", "N pictures NAME.000.png ... of one turn"});
   verb.add({"--watch", &r.watch, "",
             "Render again whenever a file of the picture changes, until Ctrl-C"});
@@ -176,6 +176,7 @@ Verb render_verb() {
             "  mms render marble.mms --watch\n"
             "  mms render a.mms b.mms -o sheet.png\n"
             "  mms render metal.mms --sweep roughness=0:1:6 --size 256x256 -o sweep.png\n"
+            "  mms render openpbr --sweep specular_roughness=0:1:6 --sweep base_metalness=0:1:3\n"
             "  mms render marble.mms --turntable 48 -o turn/\n"
             "  mms render --set scale=8 --surface marble marble.mms --report",
             {},

@@ -21,10 +21,11 @@ struct RenderRequest : PictureOptions {
   int first_sample = 0, end_sample = 64, thread_count = 0, depth = 64;
   double seconds = 0, error_limit = 0;  ///< 0 is none
   std::uint64_t seed_number = 0;
-  std::string scene = "sphere", environment, surface, volume, sweep, turntable;
-  int frames = 0;                  ///< from `turntable`; 0 is none
-  double turn = 0;                 ///< of the test object, radians
-  double checkpoint_seconds = 60;  ///< 0 is never
+  std::string scene = "sphere", environment, surface, volume, turntable;
+  std::vector<std::string> sweeps;  ///< `param=a:b:n`: the first across, the second down
+  int frames = 0;                   ///< from `turntable`; 0 is none
+  double turn = 0;                  ///< of the test object, radians
+  double checkpoint_seconds = 60;   ///< 0 is never
   bool resume = false, report = false, watch = false;
 };
 

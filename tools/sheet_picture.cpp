@@ -24,6 +24,7 @@ namespace {
 
 /// More columns make captions too small to read on a screen.
 constexpr int kMostColumns = 8;
+constexpr int kMostPictures = 400;
 
 /// One param at values from `low` to `high`.
 struct Sweep {
@@ -36,55 +37,93 @@ struct Sweep {
   }
 };
 
-/// `roughness=0:1:6`; nothing where no sweep is asked for.
-Result<std::optional<Sweep>> read_sweep(const std::string& text) {
-  if (text.empty()) return std::optional<Sweep>();
+/// `roughness=0:1:6`.
+Result<Sweep> read_sweep(const std::string& text) {
   const Error wrong{
       "--sweep", fmt::format("`{}` is no sweep", text),
-      "a param, its first and last value and how many, 2 to 400, as in roughness=0:1:6"};
+      fmt::format("a param, its first and last value and how many, 2 to {}, as in roughness=0:1:6",
+                  kMostPictures)};
   const std::size_t equals = text.find('='), first = text.find(':'), last = text.rfind(':');
   if (equals == 0 || equals == std::string::npos || first == last || first < equals) return wrong;
   const auto low = number<double>(text.substr(equals + 1, first - equals - 1));
   const auto high = number<double>(text.substr(first + 1, last - first - 1));
   const auto steps = number<long long>(text.substr(last + 1));
-  if (!low || !high || !steps || *steps < 2 || *steps > 400 || !std::isfinite(*low) ||
+  if (!low || !high || !steps || *steps < 2 || *steps > kMostPictures || !std::isfinite(*low) ||
       !std::isfinite(*high))
     return wrong;
-  return std::optional<Sweep>({text.substr(0, equals), *low, *high, int(*steps)});
+  return Sweep{text.substr(0, equals), *low, *high, int(*steps)};
+}
+
+/// None, one across, or a second one down.
+using Sweeps = std::vector<Sweep>;
+
+/// Of pictures of each script.
+int count(const Sweeps& sweeps) {
+  int n = 1;
+  for (const Sweep& s : sweeps) n *= s.steps;
+  return n;
+}
+
+Result<Sweeps> read_sweeps(const std::vector<std::string>& texts) {
+  Sweeps all;
+  for (const std::string& text : texts) {
+    auto sweep = read_sweep(text);
+    if (!sweep) return sweep.error();
+    all.push_back(std::move(*sweep));
+  }
+  if (all.size() > 2)
+    return Error{"--sweep", "more than two",
+                 "one goes across, the second down: leave the others out"};
+  if (all.size() == 2 && all[0].param == all[1].param)
+    return Error{"--sweep", fmt::format("`{}` is swept twice", all[0].param), "leave one out"};
+  if (count(all) > kMostPictures)
+    return Error{"--sweep", fmt::format("{} pictures", count(all)),
+                 fmt::format("take fewer steps: {} pictures at most", kMostPictures)};
+  return all;
+}
+
+/// The params and their values in the `i`-th picture, row by row.
+std::vector<std::string> values(const Sweeps& sweeps, int i, const char* between) {
+  std::vector<std::string> all;
+  for (const Sweep& s : sweeps) {
+    all.push_back(s.param + between + s.value(i % s.steps));
+    i /= s.steps;
+  }
+  return all;
 }
 
 /// One tile to be: a script with settings.
 struct Variant {
-  std::string file, caption;
+  std::string file;
+  std::vector<std::string> caption;  ///< lines
   RenderRequest request;
 };
 
-/// The same with the `i`-th value of the sweep.
-RenderRequest with_value(RenderRequest request, const Sweep& sweep, int i) {
-  request.settings.push_back(sweep.param + "=" + sweep.value(i));
+/// The same with the `i`-th values of the sweeps.
+RenderRequest with_values(RenderRequest request, const Sweeps& sweeps, int i) {
+  for (std::string& s : values(sweeps, i, "=")) request.settings.push_back(std::move(s));
   return request;
 }
 
-std::vector<Variant> variants(const RenderRequest& request, const std::optional<Sweep>& sweep) {
+std::vector<Variant> variants(const RenderRequest& request, const Sweeps& sweeps) {
   std::vector<Variant> all;
   for (const std::string& file : request.files) {
-    if (!sweep) {
-      all.push_back({file, stem(file), request});
+    if (sweeps.empty()) {
+      all.push_back({file, {stem(file)}, request});
       continue;
     }
-    for (int i = 0; i < sweep->steps; ++i) {
-      Variant v{file, fmt::format("{} = {}", sweep->param, sweep->value(i)),
-                with_value(request, *sweep, i)};
-      if (request.files.size() > 1) v.caption = stem(file) + ": " + v.caption;
+    for (int i = 0; i < count(sweeps); ++i) {
+      Variant v{file, values(sweeps, i, " = "), with_values(request, sweeps, i)};
+      if (request.files.size() > 1) v.caption.front() = stem(file) + ": " + v.caption.front();
       all.push_back(std::move(v));
     }
   }
   return all;
 }
 
-/// Whether the script `file` has the param that is swept, and each value fits it; says once what is
+/// Whether the script `file` has the params that are swept, and each value fits; says once what is
 /// wrong, before any tile is rendered.
-Exit check_sweep(const RenderRequest& request, const Sweep& sweep, const std::string& file) {
+Exit check_sweeps(const RenderRequest& request, const Sweeps& sweeps, const std::string& file) {
   if (file == "-")
     return fail(Exit::Usage, {"--sweep", "standard input can be read only once", "name a file"},
                 request);
@@ -103,7 +142,8 @@ Exit check_sweep(const RenderRequest& request, const Sweep& sweep, const std::st
   if (!linked) return exit;
   std::vector<std::string> names;
   for (const lang::ParamInfo& p : linked->params) names.push_back(p.name);
-  if (std::ranges::find(names, sweep.param) == names.end()) {
+  for (const Sweep& sweep : sweeps) {
+    if (std::ranges::find(names, sweep.param) != names.end()) continue;
     const std::string near = lang::nearest(sweep.param, names);
     return fail(Exit::Usage,
                 {"--sweep", fmt::format("{} has no param `{}`", file, sweep.param),
@@ -112,8 +152,8 @@ Exit check_sweep(const RenderRequest& request, const Sweep& sweep, const std::st
                                   : "add one to the script: param real roughness = 0.3;"},
                 request);
   }
-  for (int i = 0; i < sweep.steps; ++i)
-    if (!links(with_value(request, sweep, i))) return exit;
+  for (int i = 0; i < count(sweeps); ++i)
+    if (!links(with_values(request, sweeps, i))) return exit;
   return Exit::Ok;
 }
 
@@ -130,7 +170,7 @@ Exit render_tile(const Variant& v, const std::string& path, renderer::SheetTile&
   auto pixels = renderer::display_pixels(r->film, view_of(v.request));
   if (!pixels) return fail(Exit::File, pixels.error(), v.request);
   tile.pixels = std::move(*pixels);
-  print_report(v.request, *job, v.file, v.caption, r->report);
+  print_report(v.request, *job, v.file, fmt::format("{}", fmt::join(v.caption, ", ")), r->report);
   return r->report.too_many_faults ? Exit::Budget : r->report.stopped ? Exit::Interrupted : exit;
 }
 
@@ -146,12 +186,12 @@ std::string sheet_path(const RenderRequest& request) {
 }  // namespace
 
 bool wants_sheet(const RenderRequest& request) {
-  return !request.sweep.empty() || (request.files.size() > 1 && request.output.ends_with(".png"));
+  return !request.sweeps.empty() || (request.files.size() > 1 && request.output.ends_with(".png"));
 }
 
 Exit render_sheet(const RenderRequest& request) {
-  const auto sweep = read_sweep(request.sweep);
-  if (!sweep) return fail(Exit::Usage, sweep.error(), request);
+  const auto sweeps = read_sweeps(request.sweeps);
+  if (!sweeps) return fail(Exit::Usage, sweeps.error(), request);
   const std::string path = sheet_path(request);
   if (!path.ends_with(".png"))
     return fail(Exit::Usage, {"-o", "a sheet is a .png", "name one, or render one picture"},
@@ -160,12 +200,12 @@ Exit render_sheet(const RenderRequest& request) {
     return fail(Exit::File, ok.error(), request);
   const auto io = renderer::open_image_io(path);  // rather than when all is rendered
   if (!io) return fail(Exit::File, io.error(), request);
-  const std::vector<Variant> all = variants(request, *sweep);
+  const std::vector<Variant> all = variants(request, *sweeps);
   std::vector<renderer::SheetTile> tiles(all.size());
   Exit worst = Exit::Ok;
-  if (*sweep)
+  if (!sweeps->empty())
     for (const std::string& file : request.files)
-      worst = std::max(worst, check_sweep(request, **sweep, file));
+      worst = std::max(worst, check_sweeps(request, *sweeps, file));
   if (worst != Exit::Ok) return worst;
   int done = 0;
   for (std::size_t i = 0; i < all.size() && !interrupted(); ++i) {
@@ -174,15 +214,16 @@ Exit render_sheet(const RenderRequest& request) {
     done += exit == Exit::Ok;
     worst = std::max(worst, exit);
   }
-  const int count = int(tiles.size());
-  const bool cut = interrupted() && done < count;
+  const int all_tiles = int(tiles.size());
+  const bool cut = interrupted() && done < all_tiles;
   if (cut) worst = Exit::Interrupted;
   if (std::all_of(tiles.begin(), tiles.end(), [](const auto& t) { return t.pixels.empty(); }))
     return worst;
-  // A sweep of few steps stays in one row; a row for each script.
-  const bool rows = *sweep && (*sweep)->steps <= kMostColumns;
+  // A sweep of few steps stays in one row, a row for each script; two are a table.
+  const bool rows =
+      sweeps->size() == 2 || (sweeps->size() == 1 && sweeps->front().steps <= kMostColumns);
   const int columns =
-      rows ? (*sweep)->steps : std::min(kMostColumns, int(std::ceil(std::sqrt(count))));
+      rows ? sweeps->front().steps : std::min(kMostColumns, int(std::ceil(std::sqrt(all_tiles))));
   const renderer::Sheet sheet = (*io)->sheet(tiles, request.width, request.height, columns);
   const auto written = renderer::write_png(path, sheet.width, sheet.height, sheet.pixels);
   if (!written) return fail(Exit::File, written.error(), request);
@@ -191,10 +232,10 @@ Exit render_sheet(const RenderRequest& request) {
                path);
   if (cut)
     fmt::print(stderr, "stopped: {} has {} of {} in full\n", path, done,
-               counted(std::uint64_t(count), "picture"));
+               counted(std::uint64_t(all_tiles), "picture"));
   else if (!request.quiet && !request.json())
-    fmt::print("{}: {}{} of {}x{}\n", path, done < count ? fmt::format("{} of ", done) : "",
-               counted(std::uint64_t(count), "picture"), request.width, request.height);
+    fmt::print("{}: {}{} of {}x{}\n", path, done < all_tiles ? fmt::format("{} of ", done) : "",
+               counted(std::uint64_t(all_tiles), "picture"), request.width, request.height);
   return worst;
 }
 

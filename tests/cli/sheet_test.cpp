@@ -99,6 +99,38 @@ TEST_CASE("a sweep shows a param at its values, in a row") {
   CHECK(folder.mms("render a.mms --sweep shade=0:1:2 --watch" + options).exit == 2);
 }
 
+TEST_CASE("two sweeps are a table: the first across, the second down") {
+  const Folder folder;
+  folder.write("a.mms",
+               "param real shade = 0.3;\nparam real blue = 0;\n"
+               "surface \"a\" bsdf = matte(rgb(shade, shade, blue)); end\n");
+  const std::string options = " --size 32x32 --samples 2 ",
+                    both = "render a.mms --sweep shade=0:0.8:3 --sweep blue=0:1:2 ";
+  const Outcome run = folder.mms(both + "-o s.png --format=json" + options);
+  INFO(run.err);
+  REQUIRE(run.exit == 0);
+  std::size_t at = 0;  // row by row
+  for (const char* caption :
+       {"shade = 0, blue = 0\"", "shade = 0.4, blue = 0\"", "shade = 0.8, blue = 0\"",
+        "shade = 0, blue = 1\"", "shade = 0.4, blue = 1\"", "shade = 0.8, blue = 1\""}) {
+    CAPTURE(caption);
+    at = run.out.find(caption, at);
+    CHECK(at != std::string::npos);
+  }
+  const auto [width, height] = size_of(folder.read("s.png"));
+  CHECK(width == 3 * (32 + 4) + 4);
+  CHECK(height > 2 * 32);
+  const Outcome three = folder.mms(both + "--sweep shade=0:1:3" + options);
+  CHECK(three.exit == 2);
+  CHECK(contains(three.err, "more than two"));
+  CHECK(contains(folder.mms("render a.mms --sweep shade=0:1:3 --sweep shade=0:1:3" + options).err,
+                 "`shade` is swept twice"));
+  CHECK(contains(folder.mms("render a.mms --sweep shade=0:1:30 --sweep blue=0:1:30" + options).err,
+                 "900 pictures"));
+  CHECK(contains(folder.mms("render a.mms --sweep shade=0:1:3 --sweep red=0:1:3" + options).err,
+                 "no param `red`"));
+}
+
 TEST_CASE("what there is to say of a script is said once, however many pictures show it") {
   const Folder folder;
   // The second warning is of one value only, the third of several, each with another number.
