@@ -19,8 +19,8 @@
 ///   base: g(wo) g(wi)           (materials/coated.h), whose mean over the lobe is 1 - F
 ///
 /// All are symmetric. A lossless base under a lossless coat then has albedo 1 within 1e-4
-/// (2e-4 below a roughness of 0.1; stretched facets gain 2e-3 at most and lose up to 6%, those of
-/// `beckmann` 12%); under every other it never exceeds 1, as min(F, F') <= F and 1 - max(F, F') <=
+/// (2e-4 below a roughness of 0.1; stretched facets within 3e-4, beyond anisotropy 0.9 within
+/// 1e-3); under every other it never exceeds 1, as min(F, F') <= F and 1 - max(F, F') <=
 /// 1 - F. A specular coat over a Lambert base is 1 exactly; but near grazing a broad coat loses
 /// much: min(F, F') is small where F' is.
 ///
@@ -300,7 +300,7 @@ inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const CoatedLobe<R>& o,
       };
       scale = 1 / (std::sqrt(squared(o, cos_o)) * std::sqrt(squared(i, cos_i)));
     }
-    f[j] = eta > 1 ? o.scale * scale * w.coated[j] : w.other[j];
+    f[j] = eta > 1 ? scale * w.coated[j] : w.other[j];
   });
   return f;
 }

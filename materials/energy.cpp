@@ -19,6 +19,8 @@ const float* const kGgxCoat = kGgxCoatTable;
 const float* const kGgxCoated = kGgxCoatedTable;
 const float* const kBeckmannCoated = kBeckmannCoatedTable;
 const float* const kGlossyCoated = kGlossyCoatedTable;
+const float* const kGgxStretchedCoated = kGgxStretchedCoatedTable;
+const float* const kBeckmannStretchedCoated = kBeckmannStretchedCoatedTable;
 const float* const kFresnelProduct = kFresnelProductTable;
 const InterfaceTables kGgxInterface{{kGgxDense, kGgxRare},
                                     {kGgxDenseMean, kGgxRareMean},

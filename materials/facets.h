@@ -11,8 +11,7 @@
 ///   shadow(w)             |w.z| Lambda(w): finite at grazing angles
 ///   sample_visible(wo, u1, u2)  a normal that `wo` (z > 0) sees
 ///   tables(), interface() what multiple scattering needs (materials/energy.h)
-///   coated(), kCoatedGain what a coat needs, and what it gains at most where facets are as
-///                         stretched as they can be, by quadrature (materials/coated.h)
+///   coated(), stretched_coated()  what a coat needs (materials/coated.h)
 
 #include "materials/coated.h"
 #include "materials/energy.h"
@@ -78,7 +77,7 @@ struct Ggx : Alpha<R> {
   static const FacetTables& tables() { return kGgxTables; }
   static const InterfaceTables& interface() { return kGgxInterface; }
   static const float* coated() { return kGgxCoated; }
-  static constexpr double kCoatedGain = 0.037;
+  static const float* stretched_coated() { return kGgxStretchedCoated; }
 };
 
 /// x with erf(x) = `y` in (-1, 1): a start after Winitzki (2008), then Newton's method.
@@ -128,7 +127,7 @@ struct Beckmann : Alpha<R> {
   static const FacetTables& tables() { return kBeckmannTables; }
   static const InterfaceTables& interface() { return kBeckmannInterface; }
   static const float* coated() { return kBeckmannCoated; }
-  static constexpr double kCoatedGain = 0.048;
+  static const float* stretched_coated() { return kBeckmannStretchedCoated; }
 
  private:
   /// The slope along a direction of cosine c and sine s: the density over x < c / s is proportional

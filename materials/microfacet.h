@@ -38,13 +38,12 @@ struct RoughReflection {
   bool specular() const { return facets.specular(); }
   FacetLoss<R> loss() const { return {&facets.tables(), facets.ax, facets.ay}; }
   BounceSampling<R> bounces() const { return {facets.ax * facets.ay}; }
-  /// Along `w`; stretched facets are taken for round ones that are as wide there, and weighed by
-  /// what this would gain at most.
   CoatedLobe<R> coated(Vec3<R> w) const {
-    const R x = facets.ax, y = facets.ay, t = facets.tangent(w);
+    const R x = facets.ax, y = facets.ay;
     if (x == y) return CoatedLobe<R>::facets(facets.coated(), x);
-    return CoatedLobe<R>::facets(facets.coated(), std::sqrt(t * t + w.z * w.z * x * y),
-                                 1 - R(facets.kCoatedGain) * (1 - std::min(x / y, y / x)));
+    if (x < y) w = {w.y, w.x, w.z};
+    return CoatedLobe<R>::facets(facets.coated(), facets.stretched_coated(), std::max(x, y),
+                                 std::min(x, y), w);
   }
 
   /// What happens between two directions of one side.

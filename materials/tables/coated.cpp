@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/coated.h and writes them as C++ to the named file: run by the
-// build, in half a minute of one core.
+// build, in three minutes of one core.
 #include <cstdio>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "base/quadrature.h"
 #include "materials/facets.h"
 #include "materials/fresnel.h"
 #include "materials/glossy.h"
+#include "materials/tables/coats.h"
 #include "materials/tables/grid.h"
 
 namespace mms::materials::tables {
 namespace {
 
-using Values = std::vector<double>;  ///< over directions
-
 constexpr int kNodes = 200;
-
-/// |Cosine| at a place on the axis of directions.
-double cosine_at(double place) { return std::sin(place * place * place * place * kPi<double> / 2); }
 
 /// Directions in the middles of as many steps along the axis of the tables.
 struct Directions {
@@ -40,19 +37,9 @@ const Directions& directions() {
 
 /// Of four nodes, for Lagrange's cubic: what is linear widens a lobe by a step, which near grazing
 /// is 1e-3 of the mean of T.
-struct Place {
-  int first;
-  double weight[4];
-
-  explicit Place(double place) {
-    const double x = std::clamp(place * kNodes - 0.5, -0.5, kNodes - 0.5);
-    first = std::clamp(int(x) - 1, 0, kNodes - 4);
-    const double a = x - first, b = a - 1, c = a - 2, d = a - 3;
-    weight[0] = -b * c * d / 6;
-    weight[1] = a * c * d / 2;
-    weight[2] = -a * b * d / 2;
-    weight[3] = a * b * c / 6;
-  }
+struct Place : Cubic {
+  explicit Place(double place)
+      : Cubic(std::clamp(place * kNodes - 0.5, -0.5, kNodes - 0.5), 0, kNodes - 4) {}
   static Place of(double z) { return Place(axes::coat_direction(z)); }
 
   double value(const Values& of) const {
@@ -78,18 +65,6 @@ struct Spread {
     return m;
   }
 };
-
-/// Numbers in (0, 1) and weights that crowd at both ends; `offset` in (0, 1) of a step.
-template <class F>
-void crowded(int n, double offset, const F& f) {
-  for (int k = 0; k < n; ++k) {
-    const double u = (k + offset) / n;
-    f(u * u * (3 - 2 * u), 6 * u * (1 - u) / n);
-  }
-}
-
-double slope(const Ggx<double>&, double u) { return std::sqrt(u / (1 - u)); }
-double slope(const Beckmann<double>&, double u) { return std::sqrt(-std::log1p(-u)); }
 
 /// One row of round facets, over slopes as polar coordinates: of a facet that `wo` sees a share of
 /// the area, masked; then what single bounces lose, as materials/energy.h gives it back.
@@ -161,22 +136,6 @@ Spread glossy_lobe(double gloss) {
   return lobe;
 }
 
-/// G of materials/coated.h, from g = T / sqrt(K T), which is nearly right, by the square root of
-/// what is still wrong (Knight, Ruiz and Ucar 2014: the symmetric form of Sinkhorn's iteration).
-Values scaled_mean(const Spread& lobe, const Values& through) {
-  Values g = through, mean = lobe.mean(g);
-  double worst = 1;
-  for (int n = 0; n < 100 && worst > 1e-7; ++n) {
-    worst = 0;
-    for (int o = 0; o < kNodes; ++o) {
-      worst = std::max(worst, std::abs(g[o] * mean[o] - through[o]));
-      g[o] = std::sqrt(g[o] * through[o] / mean[o]);
-    }
-    mean = lobe.mean(g);
-  }
-  return mean;
-}
-
 /// The inverse of axes::index.
 double index_at(double place) {
   const double x = std::clamp(place * place * place * place, 1e-7, 1 - 1e-4);
@@ -200,8 +159,8 @@ void write_product(std::FILE* to) {
   write_numbers(to, "kFresnelProductTable", {spline.begin(), spline.end()});
 }
 
-/// G^2 - T, for every lobe and index.
-void write_coated(std::FILE* to, const char* name, const std::vector<Spread>& lobes) {
+/// G^2 - T, for every lobe and index. Returns the table.
+std::vector<float> write_coated(std::FILE* to, const char* name, const std::vector<Spread>& lobes) {
   using namespace axes;
   const int count = int(lobes.size());
   std::vector<Values> table(std::size_t(count) * kCoatedIndex, Values(kNodes));
@@ -218,7 +177,9 @@ void write_coated(std::FILE* to, const char* name, const std::vector<Spread>& lo
     return Place(x[2]).value(line);
   });
   const Values spline = grid.spline();
-  write_numbers(to, name, {spline.begin(), spline.end()});
+  const std::vector<float> numbers(spline.begin(), spline.end());
+  write_numbers(to, name, numbers);
+  return numbers;
 }
 
 /// `make(place)` for places along the axis of widths.
@@ -232,6 +193,15 @@ std::vector<Spread> lobes(int count, const Make& make) {
 /// The inverse of axes::coat_alpha.
 double alpha_at(double place) { return std::max(place * place * place * place, 1e-6); }
 
+/// Facets, round and stretched.
+template <template <class> class Distribution>
+void write_facets(std::FILE* to, const std::string& name) {
+  const auto round = write_coated(
+      to, (name + "CoatedTable").c_str(),
+      lobes(axes::kCoatedAlpha, [](double x) { return facet_lobe<Distribution>(alpha_at(x)); }));
+  write_numbers(to, name + "StretchedCoatedTable", stretched_coats<Distribution>(round.data()), 4);
+}
+
 }  // namespace
 }  // namespace mms::materials::tables
 
@@ -239,11 +209,8 @@ int main(int argc, char** argv) {
   using namespace mms::materials;
   using namespace mms::materials::tables;
   return make_tables(argc, argv, [](std::FILE* to) {
-    write_coated(to, "kGgxCoatedTable",
-                 lobes(axes::kCoatedAlpha, [](double x) { return facet_lobe<Ggx>(alpha_at(x)); }));
-    write_coated(to, "kBeckmannCoatedTable", lobes(axes::kCoatedAlpha, [](double x) {
-                   return facet_lobe<Beckmann>(alpha_at(x));
-                 }));
+    write_facets<Ggx>(to, "kGgx");
+    write_facets<Beckmann>(to, "kBeckmann");
     write_coated(to, "kGlossyCoatedTable", lobes(axes::kCoatedGloss, [](double x) {
                    return glossy_lobe(std::expm1(x * std::log1p(axes::kLargestGloss)));
                  }));

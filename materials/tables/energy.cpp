@@ -6,6 +6,7 @@
 
 #include "materials/glossy.h"
 #include "materials/tables/grid.h"
+#include "materials/tables/shapes.h"
 #include "materials/tables/slopes.h"
 #include "materials/tables/visible.h"
 
@@ -148,62 +149,6 @@ double bent_index_at(double place, bool rising) {
   if (rising) place = std::pow(place, 1 / kBentIndexPower);
   return index_at(kLeastBentIndex + (kMostBentIndex - kLeastBentIndex) * place, rising);
 }
-
-/// Shapes that stretched facets are computed at, on rings of the disc, and what makes polynomials
-/// of the values there: least squares, which count less the more facets are stretched.
-class ShapeFit {
- public:
-  explicit ShapeFit(int degree) : terms_(ShapeBasis<double>::terms(degree)) {
-    const int rings = degree / 2 + 2;
-    std::vector<double> weights;
-    for (int ring = 1; ring <= rings; ++ring) {
-      const int n = std::min(2 * ring + 1, degree + 1);
-      const double radius = std::sin(kPi<double> / 2 * ring / rings);
-      for (int i = 0; i < n; ++i) {
-        const double angle = kPi<double> * i / (n - 1);
-        shapes_.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-        weights.push_back(radius > 0.85 ? 0.1 : 1);  // anisotropy 0.9 is at 0.83
-      }
-    }
-    // The normal equations, with a column for each shape. A little is added to their diagonal:
-    // there are polynomials that all but vanish over the disc, of which any multiple would do.
-    const int columns = terms_ + count();
-    std::vector<std::vector<double>> a(terms_, std::vector<double>(columns));
-    for (int s = 0; s < count(); ++s) {
-      const ShapeBasis<double> basis(shapes_[s], degree);
-      for (int i = 0; i < terms_; ++i) {
-        a[i][terms_ + s] = weights[s] * basis.value[i];
-        for (int j = 0; j < terms_; ++j) a[i][j] += weights[s] * basis.value[i] * basis.value[j];
-      }
-    }
-    for (int i = 0; i < terms_; ++i) a[i][i] += 1e-5;
-    solve(a);
-    for (auto& row : a) inverse_.emplace_back(row.begin() + terms_, row.end());
-  }
-
-  int count() const { return int(shapes_.size()); }
-  int terms() const { return terms_; }
-
-  /// Facets that look so along the tangent (x, y), with z = 0.
-  StretchedInterface<double> facets(int i, double root) const {
-    const auto [u, v] = shapes_[i];
-    const double radius = std::hypot(u, v) * 9 / 11, aspect = (1 + radius) / (1 - radius);
-    const double turn = std::atan2(v, u) / 2;  // from the narrower axis
-    return {root * std::sqrt(aspect), root / std::sqrt(aspect), std::sin(turn), std::cos(turn), 0};
-  }
-
-  /// The coefficient of a term, of values at all shapes.
-  double term(int i, const double* values) const {
-    double sum = 0;
-    for (int s = 0; s < count(); ++s) sum += inverse_[i][s] * values[s];
-    return sum;
-  }
-
- private:
-  int terms_;
-  std::vector<Shape<double>> shapes_;
-  std::vector<std::vector<double>> inverse_;  // [term][shape]
-};
 
 /// What stretched facets lose other than the round ones of the tables, over its scale.
 template <template <class> class Distribution>

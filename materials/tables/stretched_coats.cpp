@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of stretched facets under a coat (materials/coated.h): two minutes of one core.
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+#include "materials/fresnel.h"
+#include "materials/tables/coats.h"
+#include "materials/tables/grid.h"
+#include "materials/tables/shapes.h"
+
+namespace mms::materials::tables {
+namespace {
+
+constexpr int kHeights = 40, kTurns = 16, kNodes = kHeights * kTurns;
+
+/// Directions of a quarter of the hemisphere, which facets see alike in all four: in the middles
+/// of steps along the axis of directions, and of an axis of azimuths half way between the surface
+/// and facets that look round.
+class Directions {
+ public:
+  explicit Directions(double aspect) : aspect_(aspect) {
+    for (int k = 0; k < kHeights; ++k) {
+      z_[k] = cosine_at((k + 0.5) / kHeights);
+      const double a = cosine_at(double(k) / kHeights), b = cosine_at((k + 1.0) / kHeights);
+      height_[k] = (b - a) * (b + a);
+    }
+    for (int k = 0; k < kTurns; ++k) {
+      turn_[k] = turn_at((k + 0.5) / kTurns);
+      width_[k] = (turn_at((k + 1.0) / kTurns) - turn_at(double(k) / kTurns)) * 2 / kPi<double>;
+    }
+  }
+
+  /// x along the wider axis.
+  Vec3d at(int node) const {
+    const double z = z_[node / kTurns], s = std::sqrt((1 - z) * (1 + z)),
+                 turn = turn_[node % kTurns];
+    return {s * std::sin(turn), s * std::cos(turn), z};
+  }
+  /// Of the mean over the hemisphere with the cosine.
+  double weight(int node) const { return height_[node / kTurns] * width_[node % kTurns]; }
+
+  /// Calls visit(node, weight) for the nodes that a value along `w` is interpolated from.
+  template <class Visit>
+  void spread(Vec3d w, const Visit& visit) const {
+    const Cubic height(axes::coat_direction(w.z) * kHeights - 0.5, 0, kHeights - 4);
+    const Cubic turn(axes::azimuth(std::sqrt(aspect_) * w.x, w.y) * kTurns - 0.5, -2, kTurns - 2);
+    for (int t = 0; t < 4; ++t) {
+      const int k = turn.first + t, mirrored = k < 0 ? -1 - k : k < kTurns ? k : 2 * kTurns - 1 - k;
+      for (int h = 0; h < 4; ++h)
+        visit((height.first + h) * kTurns + mirrored, height.weight[h] * turn.weight[t]);
+    }
+  }
+
+  double value(const Values& of, Vec3d w) const {
+    double sum = 0;
+    spread(w, [&](int node, double weight) { sum += weight * of[node]; });
+    return sum;
+  }
+
+ private:
+  /// The azimuth from the narrower axis: the inverse of axes::azimuth.
+  double turn_at(double place) const {
+    const double a = place * kPi<double> / 2;
+    return std::atan2(std::sin(a), std::sqrt(aspect_) * std::cos(a));
+  }
+
+  double aspect_;  ///< quotient of both widths
+  double z_[kHeights], height_[kHeights], turn_[kTurns], width_[kTurns];
+};
+
+/// White stretched facets as a matrix: row o holds what light along o is spread to; rows sum to 1.
+template <class Facets>
+class Lobe {
+ public:
+  Lobe(double wide, double narrow)
+      : facets_{{wide, narrow}}, directions_(wide / narrow), rows_(kNodes, Values(kNodes)) {
+    const std::vector<Facet> all = all_facets();
+    for (int o = 0; o < kNodes; ++o) add(o, all);
+    give_back();
+  }
+
+  const Directions& directions() const { return directions_; }
+
+  Values mean(const Values& of) const {
+    Values m(kNodes);
+    for (int o = 0; o < kNodes; ++o) m[o] = product(rows_[o], of);
+    return m;
+  }
+
+ private:
+  /// In parts that the compiler may sum side by side.
+  static double product(const Values& a, const Values& b) {
+    constexpr int kParts = 8;
+    double part[kParts] = {};
+    for (int i = 0; i < kNodes; i += kParts)
+      for (int k = 0; k < kParts; ++k) part[k] += a[i + k] * b[i + k];
+    double sum = 0;
+    for (const double p : part) sum += p;
+    return sum;
+  }
+
+  /// A facet's normal, not of unit length, and the share of the surface below such ones.
+  struct Facet {
+    double x, y, share;
+  };
+
+  /// Over slopes as polar coordinates; a lattice, as in materials/tables/coated.cpp.
+  std::vector<Facet> all_facets() const {
+    constexpr int kSlopes = 64, kAngles = 64;
+    std::vector<Facet> all;
+    for (int k = 0; k < kAngles; ++k) {
+      const double phi = 2 * kPi<double> * (k + 0.5) / kAngles;
+      const double offset = std::fmod((k + 0.5) * std::numbers::phi, 1.0);
+      const double cx = facets_.ax * std::cos(phi), cy = facets_.ay * std::sin(phi);
+      crowded(kSlopes, offset, [&](double u, double weight) {
+        const double r = slope(facets_, u);
+        all.push_back({r * cx, r * cy, weight});
+      });
+    }
+    return all;
+  }
+
+  /// A row of single bounces: of a facet that `wo` sees a share of the area, masked.
+  void add(int row, const std::vector<Facet>& all) {
+    const Vec3d wo = directions_.at(row);
+    const double z = wo.z, shadow = facets_.shadow(wo);
+    double seen = 0;
+    for (const Facet& f : all) {
+      const double facing = z + wo.x * f.x + wo.y * f.y;
+      if (!(facing > 0)) continue;
+      const double area = facing * f.share, twice = 2 * facing / (1 + f.x * f.x + f.y * f.y);
+      seen += area;
+      const double c = std::min(twice - z, 1.0);
+      if (!(c > 0)) continue;
+      const Vec3d wi{twice * f.x - wo.x, twice * f.y - wo.y, c};
+      const double share = area * (z + shadow) * c / (z * c + shadow * c + z * facets_.shadow(wi));
+      directions_.spread(wi, [&](int i, double part) { rows_[row][i] += share * part; });
+    }
+    for (double& x : rows_[row]) x /= seen;
+  }
+
+  /// What single bounces lose, as materials/energy.h does.
+  void give_back() {
+    Values lost(kNodes);
+    double mean = 0;
+    for (int o = 0; o < kNodes; ++o) {
+      lost[o] = std::max(0.0, 1 - std::accumulate(rows_[o].begin(), rows_[o].end(), 0.0));
+      mean += lost[o] * directions_.weight(o);
+    }
+    for (int o = 0; o < kNodes; ++o) {
+      if (mean > 0)
+        for (int i = 0; i < kNodes; ++i)
+          rows_[o][i] += lost[o] * lost[i] * directions_.weight(i) / mean;
+      const double sum = std::accumulate(rows_[o].begin(), rows_[o].end(), 0.0);
+      for (double& x : rows_[o]) x /= sum;
+    }
+  }
+
+  Facets facets_;
+  Directions directions_;
+  std::vector<Values> rows_;
+};
+
+/// The inverse of axes::stretched_coat_index.
+double index_at(double place) {
+  using namespace axes;
+  const double x = std::pow(kLeastCoatIndex + (kMostCoatIndex - kLeastCoatIndex) * place, 4);
+  return (1 + x) / (1 - x);
+}
+
+/// G along all directions of the lobe.
+template <class Lobe>
+Values mean_under(const Lobe& lobe, double eta) {
+  Values through(kNodes);
+  for (int o = 0; o < kNodes; ++o)
+    through[o] = fresnel_split(lobe.directions().at(o).z, eta).transmitted;
+  return scaled_mean(lobe, through);
+}
+
+/// What G^2 of facets is above that of round ones, for all shapes, at each index and direction.
+template <template <class> class Distribution>
+std::vector<Values> differences(const ShapeFit& shapes, double root, const float* round) {
+  using namespace axes;
+  std::vector<Values> all(kStretchedCoatIndex * kStretchedCoatDirection, Values(shapes.count()));
+  for (int first = 0, end = 0; first < shapes.count(); first = end) {
+    // All shapes of one ring are the same facets, along other directions.
+    const auto [wide, narrow, x0, y0, z0] = shapes.facets(first, root);
+    while (end < shapes.count() && shapes.facets(end, root).wide == wide) ++end;
+    const Lobe<Distribution<double>> lobe(wide, narrow);
+    for (int n = 0; n < kStretchedCoatIndex; ++n) {
+      const double eta = index_at(double(n) / (kStretchedCoatIndex - 1));
+      const Values mean = mean_under(lobe, eta);
+      for (int d = 0; d < kStretchedCoatDirection; ++d) {
+        const double place = double(d) / (kStretchedCoatDirection - 1);
+        const double z = cosine_at(std::max(place, 1e-3)), s = std::sqrt((1 - z) * (1 + z));
+        for (int i = first; i < end; ++i) {
+          const auto seen = shapes.facets(i, root);
+          const Vec3d w{s * seen.x, s * seen.y, z};
+          const double g = lobe.directions().value(mean, w);
+          const auto like = CoatedLobe<double>::facets(round, coated_width(wide, narrow, w));
+          all[n * kStretchedCoatDirection + d][i] =
+              g * g - like.mean_squared(eta, z, fresnel_split(z, eta).transmitted);
+        }
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+template <template <class> class Distribution>
+std::vector<float> stretched_coats(const float* round) {
+  using namespace axes;
+  const ShapeFit shapes(kStretchedCoatDegree);
+  const int steps = kStretchedCoatAlpha - 1, terms = shapes.terms();
+  Grid fitted({kStretchedCoatAlpha, kStretchedCoatIndex, kStretchedCoatDirection, terms},
+              [](const double*) { return 0.0; });  // as it is of mirrors
+  parallel(steps, [&](int k) {
+    const double place = (k + 1.0) / steps;
+    const auto values = differences<Distribution>(shapes, place * place * place, round);
+    double* to = &fitted.values[(k + 1) * values.size() * terms];
+    for (const Values& of_shapes : values)
+      for (int t = 0; t < terms; ++t) *to++ = shapes.term(t, of_shapes.data());
+  });
+  const Values spline = fitted.spline(1);
+  return {spline.begin(), spline.end()};
+}
+
+template std::vector<float> stretched_coats<Ggx>(const float*);
+template std::vector<float> stretched_coats<Beckmann>(const float*);
+
+}  // namespace mms::materials::tables
