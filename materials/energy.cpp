@@ -24,12 +24,14 @@ const float* const kBeckmannStretchedCoated = kBeckmannStretchedCoatedTable;
 const float* const kFresnelProduct = kFresnelProductTable;
 const InterfaceTables kGgxInterface{{kGgxDense, kGgxRare},
                                     {kGgxDenseMean, kGgxRareMean},
+                                    kGgxBent,
                                     {kGgxDenseStretched, kGgxRareStretched},
                                     {kGgxDenseStretchedMean, kGgxRareStretchedMean},
                                     kGgxLeastMean,
                                     kGgxKink};
 const InterfaceTables kBeckmannInterface{{kBeckmannDense, kBeckmannRare},
                                          {kBeckmannDenseMean, kBeckmannRareMean},
+                                         kBeckmannBent,
                                          {kBeckmannDenseStretched, kBeckmannRareStretched},
                                          {kBeckmannDenseStretchedMean, kBeckmannRareStretchedMean},
                                          kBeckmannLeastMean,

@@ -27,13 +27,19 @@ struct FacetTables {
 };
 extern const FacetTables kGgxTables, kBeckmannTables;
 
+/// Nodes of a table of stretched facets of an interface, and the degree of its polynomials.
+struct BentGrid {
+  int width, index, direction, degree;
+};
+
 /// The same of facets of a lossless dielectric, reflection and refraction together: [0] where the
 /// index rises on the far side, [1] where it falls. What is said of stretched facets is how they
 /// differ from round ones (InterfaceLoss), so that few nodes do.
 struct InterfaceTables {
   const float* loss[2];            ///< its root, [alpha][index][direction], isotropic
   const float* mean[2];            ///< [alpha][index], isotropic, over `mean_unit`
-  const float* stretched[2];       ///< [alpha][index][direction][term of ShapeBasis]
+  const BentGrid* bent;            ///< [2], of `stretched`
+  const float* stretched[2];       ///< [width][index][direction][term of ShapeBasis]
   const float* stretched_mean[2];  ///< [alpha][aspect][index], over the mean of round facets
   float least_mean;                ///< over `mean_unit`: less than any mean is in truth
   float kink;                      ///< see axes::bent_direction
@@ -42,7 +48,10 @@ extern const InterfaceTables kGgxInterface, kBeckmannInterface;
 /// `least_mean` of both; Beckmann's means have no logarithm, which `mean_unit` has.
 inline constexpr float kGgxLeastMean = 0.1f, kBeckmannLeastMean = 0.003f;
 /// `kink` of both.
-inline constexpr float kGgxKink = 0.3f, kBeckmannKink = 0;
+inline constexpr float kGgxKink = 0.6f, kBeckmannKink = 0;
+/// `bent` of both.
+inline constexpr BentGrid kGgxBent[] = {{11, 14, 26, 12}, {12, 20, 28, 14}};
+inline constexpr BentGrid kBeckmannBent[] = {{12, 14, 26, 12}, {18, 20, 32, 14}};
 
 /// Mean Fresnel reflectance over the directions that a coat's lobe scatters to, minus that at the
 /// direction it scatters from, for indices above 1: [gloss][index][direction] of `glossy`,
@@ -62,13 +71,13 @@ inline constexpr int kStretchedMean = 65, kMeanAspect = 12;
 inline constexpr int kInterfaceAlpha[] = {23, 35}, kIndex[] = {33, 43};
 inline constexpr int kInterfaceDirection[] = {55, 75};
 inline constexpr int kInterfaceMean = 65;
-/// Bent: of stretched facets of an interface.
-inline constexpr int kBentAlpha[] = {10, 12}, kBentIndex[] = {12, 16}, kBentDirection[] = {26, 31};
+/// Bent: of stretched facets of an interface; other nodes in BentGrid.
 inline constexpr int kBentMeanAlpha = 17, kBentMeanAspect = 8, kBentMeanIndex = 16;
-/// Roots of the least alpha; below, all is as there, but for its scale. The ends of the axis of
+/// Roots of the least width; below, all is as there, but for its scale. The ends of the axis of
 /// indices: 1.0002 and 4, or their inverses.
 inline constexpr double kLeastBentRoot = 0.1, kLeastBentFourthRoot = 0.15;
-inline constexpr double kLeastBentIndex = 0.1, kMostBentIndex = 0.8801117, kBentIndexPower = 0.75;
+inline constexpr double kLeastBentIndex = 0.1, kMostBentIndex = 0.8801117;
+inline constexpr double kBentIndexPower[] = {0.75, 1.2};
 inline constexpr int kGloss = 33, kCoatAlpha = 25, kCoatIndex = 37, kCoatDirection = 49;
 inline constexpr double kLargestGloss = 5e4;
 
@@ -126,9 +135,10 @@ template <class R>
 inline R bent_aspect(R quotient) {
   return std::pow(aspect(quotient), R(0.7));
 }
+/// Of the width `like` of stretched facets, along which what is sharp stays at one place.
 template <class R>
-inline R bent_alpha(R a) {
-  return (std::sqrt(a) - R(kLeastBentRoot)) / R(1 - kLeastBentRoot);
+inline R bent_width(R like) {
+  return (std::sqrt(like) - R(kLeastBentRoot)) / R(1 - kLeastBentRoot);
 }
 template <class R>
 inline R bent_mean_alpha(R a) {
@@ -200,7 +210,7 @@ inline R bent_direction(R z, R s, R alpha, R eta, R kink) {
   if (kink == 0) return x;
   const R at = angle(eta, std::sqrt((1 - eta) * (1 + eta))), from = std::cbrt(at);
   const R place = (std::cbrt(angle(z, s) - at) + from) / (std::cbrt(1 - at) + from);
-  return (x + kink * place) / (1 + kink);
+  return towards_grazing((x + kink * place) / (1 + kink));
 }
 
 /// Of the relative index `eta`: 0 at 1, towards 1 for 0 and infinity. Next to 1, Fresnel's factor
@@ -212,11 +222,11 @@ inline R index(R eta) {
 
 /// The same of stretched facets, where indices above 4 and below 1/4 count as these, and those next
 /// to 1, which all but the widest facets take for 1, as nearly 1. Finer next to 1 where the index
-/// rises.
+/// rises, away from it where it falls.
 template <class R>
 inline R bent_index(R eta) {
   const R x = (index(eta) - R(kLeastBentIndex)) / R(kMostBentIndex - kLeastBentIndex);
-  return eta < 1 || !(x > 0) ? x : std::pow(x, R(kBentIndexPower));
+  return x > 0 ? std::pow(x, R(kBentIndexPower[eta < 1])) : R(0);
 }
 
 template <class R>
@@ -286,31 +296,36 @@ struct FacetLoss {
 
 /// How stretched facets look along a direction: a point of the unit disc, whose centre is round
 /// facets and whose rim those ten times as wide along one axis as along the other. Half the angle
-/// there is the direction's azimuth from the narrower axis.
+/// there is the direction's azimuth from the narrower axis, a little widened next to it, where
+/// losses change fastest.
 template <class R>
 struct Shape {
   R u = 0, v = 0;
 
   /// `x` along the wider axis.
   static Shape of(R wide, R narrow, R x, R y) {
-    const R radius = (wide - narrow) / (wide + narrow) * R(11.0 / 9), length2 = x * x + y * y;
+    const R radius = (wide - narrow) / (wide + narrow) * R(11.0 / 9);
+    x *= widened(radius);
+    const R length2 = x * x + y * y;
     if (!(length2 > 0)) return {-radius, 0};
     return {radius * ((y - x) * (y + x) / length2), radius * (2 * std::abs(x * y) / length2)};
   }
+  /// How much tangents of azimuths are: this is smooth at the centre too.
+  static R widened(R radius) { return (1 + R(0.15) * radius) / (1 - R(0.15) * radius); }
 };
 
 /// Polynomials over the disc of shapes, even in v and 0 at its centre: products of Chebyshev's, of
 /// the degrees i in u and 2 j in v, i + 2 j <= `degree`.
 template <class R>
 struct ShapeBasis {
-  static constexpr int kDegree[] = {12, 14};  ///< [1] where the index falls on the far side
+  static constexpr int kMostDegree = 14;
   static constexpr int terms(int degree) { return (degree / 2 + 1) * (degree / 2 + 1) - 1; }
-  static constexpr int kMost = terms(kDegree[1]);
+  static constexpr int kMost = terms(kMostDegree);
 
   R value[kMost];
 
   ShapeBasis(const Shape<R>& shape, int degree) {
-    R along[kDegree[1] + 1];
+    R along[kMostDegree + 1];
     along[0] = 1, along[1] = shape.u;
     for (int i = 2; i <= degree; ++i) along[i] = 2 * shape.u * along[i - 1] - along[i - 2];
     // Of even degree: Chebyshev's of half of it at 2 v^2 - 1.
@@ -404,20 +419,21 @@ struct InterfaceLoss {
   R difference(const StretchedInterface<R>& f, R like, R s) const {
     using namespace axes;
     using Basis = ShapeBasis<R>;
-    const int k = falls(), terms = Basis::terms(Basis::kDegree[k]);
-    const Basis basis(f.shape(), Basis::kDegree[k]);
-    const auto a = Stencil<R>::at(bent_alpha(f.root()), kBentAlpha[k]);
-    const auto n = Stencil<R>::at(bent_index(eta), kBentIndex[k]);
+    const BentGrid& grid = tables->bent[falls()];
+    const int terms = Basis::terms(grid.degree);
+    const Basis basis(f.shape(), grid.degree);
+    const auto a = Stencil<R>::at(bent_width(like), grid.width);
+    const auto n = Stencil<R>::at(bent_index(eta), grid.index);
     const auto d =
-        Stencil<R>::at(bent_direction(f.z, s, like, eta, R(tables->kink)), kBentDirection[k]);
-    const int n2 = terms, n1 = n2 * coefficients(kBentDirection[k]),
-              n0 = n1 * coefficients(kBentIndex[k]);
+        Stencil<R>::at(bent_direction(f.z, s, like, eta, R(tables->kink)), grid.direction);
+    const int n2 = terms, n1 = n2 * coefficients(grid.direction),
+              n0 = n1 * coefficients(grid.index);
     R sums[Basis::kMost] = {};
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j)
         for (int l = 0; l < 4; ++l) {
-          const float* p =
-              tables->stretched[k] + (a.first + i) * n0 + (n.first + j) * n1 + (d.first + l) * n2;
+          const float* p = tables->stretched[falls()] + (a.first + i) * n0 + (n.first + j) * n1 +
+                           (d.first + l) * n2;
           const R weight = a.weight[i] * n.weight[j] * d.weight[l];
           for (int t = 0; t < terms; ++t) sums[t] += weight * R(p[t]);
         }

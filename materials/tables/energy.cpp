@@ -99,23 +99,21 @@ double index_at(double place, bool rising) {
 /// How a mean's width is laid out: the inverse of axes::log_alpha.
 double from_log(double x) { return std::pow(axes::kMinMeanAlpha, 1 - x); }
 
-/// Tables of round facets: the loss and its mean.
+/// Tables of round facets: the loss and its mean; and what else is said of a distribution.
 struct RoundInterface {
   float least_mean = 0, kink = 0;
-  std::vector<float> loss, mean;
+  const BentGrid* bent = nullptr;
+  std::vector<float> loss{}, mean{};
   InterfaceTables tables() const {
-    return {{loss.data(), loss.data()}, {mean.data(), mean.data()}, {}, {}, least_mean, kink};
+    return {{loss.data(), loss.data()}, {mean.data(), mean.data()}, bent, {}, {}, least_mean, kink};
   }
 };
 
 /// The tables hold the root of the loss: it falls less steeply, and float keeps more of its digits.
 template <template <class> class Distribution>
 RoundInterface write_round_interface(std::FILE* to, const std::string& name, bool rising,
-                                     float least_mean, float kink) {
+                                     RoundInterface round) {
   using namespace axes;
-  RoundInterface round;
-  round.least_mean = least_mean;
-  round.kink = kink;
   round.loss = write(
       to, name,
       Grid({kInterfaceAlpha[!rising], kIndex[!rising], kInterfaceDirection[!rising]},
@@ -125,8 +123,8 @@ RoundInterface write_round_interface(std::FILE* to, const std::string& name, boo
                return interface_direction(z, s, a, eta);
              });
              const double z = std::max(c, kLeast * a);
-             return std::sqrt(interface_loss<12>(Distribution<double>{{a, a}}, eta,
-                                                 {std::sqrt(1 - z * z), 0, z}));
+             return std::sqrt(interface_loss(Distribution<double>{{a, a}}, eta,
+                                             {std::sqrt(1 - z * z), 0, z}, 24));
            }));
   const InterfaceTables tables = round.tables();
   round.mean =
@@ -146,7 +144,7 @@ std::array<double, 2> bent_widths(double root, double place) {
 /// The relative index of a place on the axis of stretched facets.
 double bent_index_at(double place, bool rising) {
   using namespace axes;
-  if (rising) place = std::pow(place, 1 / kBentIndexPower);
+  place = std::pow(place, 1 / kBentIndexPower[!rising]);
   return index_at(kLeastBentIndex + (kMostBentIndex - kLeastBentIndex) * place, rising);
 }
 
@@ -154,28 +152,29 @@ double bent_index_at(double place, bool rising) {
 template <template <class> class Distribution>
 std::vector<float> stretched_difference(bool rising, const InterfaceTables& round) {
   using namespace axes;
-  const int k = !rising, alphas = kBentAlpha[k], indices = kBentIndex[k],
-            directions = kBentDirection[k];
-  const ShapeFit shapes(ShapeBasis<double>::kDegree[k]);
+  const auto [widths, indices, directions, degree] = round.bent[!rising];
+  const ShapeFit shapes(degree);
   const int count = shapes.count(), terms = shapes.terms();
-  const Grid values({alphas, indices, directions, count}, [&](const double* x) {
-    const double root = std::pow(kLeastBentRoot + (1 - kLeastBentRoot) * x[0], 2);
+  const Grid values({widths, indices, directions, count}, [&](const double* x) {
+    const double like = std::pow(kLeastBentRoot + (1 - kLeastBentRoot) * x[0], 2);
     const double eta = bent_index_at(x[1], rising);
-    auto seen = shapes.facets(int(std::lround(x[3] * (count - 1))), root);
-    const double like = seen.like();
+    auto seen = shapes.facets(int(std::lround(x[3] * (count - 1))));
+    const double along = std::hypot(seen.wide * seen.x, seen.narrow * seen.y);
+    const double root = like / (along + like * (1 - along));  // the inverse of like()
+    seen.wide *= root, seen.narrow *= root;
     const double c = cosine(std::min(x[2], 1 - kLeast), [&](double z, double s) {
       return bent_direction(z, s, like, eta, double(round.kink));
     });
-    const double z = std::max(c, kLeast * root), s = std::sqrt(1 - z * z);
+    const double z = std::max(c, kLeast * seen.root()), s = std::sqrt(1 - z * z);
     seen.x *= s, seen.y *= s, seen.z = z;
     const InterfaceLoss<double> loss{&round, seen.wide, seen.narrow, eta};
-    return (interface_loss<10>(Distribution<double>{{seen.wide, seen.narrow}}, eta,
-                               {seen.x, seen.y, z}) -
+    return (interface_loss(Distribution<double>{{seen.wide, seen.narrow}}, eta, {seen.x, seen.y, z},
+                           rising ? 20 : 16) -
             loss.round(like, z, s)) /
            seen.scale();
   });
-  Grid fitted({alphas, indices, directions, terms}, [](const double*) { return 0.0; });
-  for (int i = 0; i < alphas * indices * directions; ++i)
+  Grid fitted({widths, indices, directions, terms}, [](const double*) { return 0.0; });
+  for (int i = 0; i < widths * indices * directions; ++i)
     for (int j = 0; j < terms; ++j)
       fitted.values[i * terms + j] = shapes.term(j, &values.values[i * count]);
   const std::vector<double> spline = fitted.spline(1);
@@ -205,11 +204,11 @@ void write_stretched_interface(std::FILE* to, const std::string& name, bool risi
 }
 
 template <template <class> class Distribution>
-void write_interface(std::FILE* to, const std::string& name, float least_mean, float kink) {
+void write_interface(std::FILE* to, const std::string& name, const RoundInterface& known) {
   for (const bool rising : {true, false}) {
     const std::string side = name + (rising ? "Dense" : "Rare");
     write_stretched_interface<Distribution>(
-        to, side, rising, write_round_interface<Distribution>(to, side, rising, least_mean, kink));
+        to, side, rising, write_round_interface<Distribution>(to, side, rising, known));
   }
 }
 
@@ -317,7 +316,8 @@ int main(int argc, char** argv) {
     tables::write_facet_coat(to, tables::write_facets<Ggx>(to, "kGgx"));
     tables::write_facets<Beckmann>(to, "kBeckmann");
     tables::write_coat(to);
-    tables::write_interface<Ggx>(to, "kGgx", kGgxLeastMean, kGgxKink);
-    tables::write_interface<Beckmann>(to, "kBeckmann", kBeckmannLeastMean, kBeckmannKink);
+    tables::write_interface<Ggx>(to, "kGgx", {kGgxLeastMean, kGgxKink, kGgxBent});
+    tables::write_interface<Beckmann>(to, "kBeckmann",
+                                      {kBeckmannLeastMean, kBeckmannKink, kBeckmannBent});
   });
 }

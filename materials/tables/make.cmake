@@ -1,9 +1,8 @@
-#SPDX - License - Identifier : Apache - 2.0
-#cmake - DMAKE = COMMAND - DSOURCE = ROOT - DKEPT = FOLDER - DTO = FILE - P make.cmake
+# SPDX-License-Identifier: Apache-2.0
+# cmake -DMAKE=COMMAND -DSOURCE=ROOT -DKEPT=FOLDER -DTO=FILE -P make.cmake
 #
-#Runs COMMAND to write the tables to FILE, \
-    unless FOLDER(of all builds of this tree; may be empty) holds
-#those of these very sources : a minute for the first build, none for the others.
+# Runs COMMAND to write the tables to FILE, unless FOLDER (of all builds of this tree; may be empty) holds
+# those of these very sources: a minute for the first build, none for the others.
 file(GLOB sources ${SOURCE}/materials/*.h ${SOURCE}/materials/tables/*.cpp ${SOURCE}/materials/tables/*.h
      ${SOURCE}/base/*.h)
 set(all "")

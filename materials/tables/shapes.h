@@ -20,10 +20,10 @@ namespace mms::materials::tables {
 class ShapeFit {
  public:
   explicit ShapeFit(int degree) : terms_(ShapeBasis<double>::terms(degree)) {
-    const int rings = degree / 2 + 2;
+    const int rings = degree / 2 + 1;
     std::vector<double> weights;
     for (int ring = 1; ring <= rings; ++ring) {
-      const int n = std::min(2 * ring + 1, degree + 1);
+      const int n = 2 * ring + 3;
       const double radius = std::sin(kPi<double> / 2 * ring / rings);
       for (int i = 0; i < n; ++i) {
         const double angle = kPi<double> * i / (n - 1);
@@ -50,12 +50,14 @@ class ShapeFit {
   int count() const { return int(shapes_.size()); }
   int terms() const { return terms_; }
 
-  /// Facets that look so along the tangent (x, y), with z = 0.
-  StretchedInterface<double> facets(int i, double root) const {
+  /// Facets that look so along the tangent (x, y), with z = 0, whose widths have the product 1.
+  StretchedInterface<double> facets(int i) const {
     const auto [u, v] = shapes_[i];
     const double radius = std::hypot(u, v) * 9 / 11, aspect = (1 + radius) / (1 - radius);
-    const double turn = std::atan2(v, u) / 2;  // from the narrower axis
-    return {root * std::sqrt(aspect), root / std::sqrt(aspect), std::sin(turn), std::cos(turn), 0};
+    const double turn = std::atan2(v, u) / 2;  // from the narrower axis, widened
+    const double wide = std::sqrt(aspect), widened = Shape<double>::widened(std::hypot(u, v));
+    const Vec3d w = normalize(Vec3d{std::sin(turn) / widened, std::cos(turn), 0});
+    return {wide, 1 / wide, w.x, w.y, 0};
   }
 
   /// The coefficient of a term, of values at all shapes.

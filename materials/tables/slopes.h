@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/quadrature.h"
 #include "materials/facets.h"
@@ -35,6 +36,35 @@ struct BeckmannSlopes {
 inline GgxSlopes slopes_of(const Ggx<double>&) { return {}; }
 inline BeckmannSlopes slopes_of(const Beckmann<double>&) { return {}; }
 
+/// Gauss's rules of 1 to `kMost` points, for numbers that are known late.
+class Rules {
+ public:
+  static constexpr int kMost = 48;
+
+  /// Integral of `f(x)` over [0, 1] by `n` points.
+  template <class F>
+  static double integrate(const F& f, int n) {
+    static const Rules rules;
+    const Rule& rule = rules.of_[std::min(n, kMost) - 1];
+    double sum = 0;
+    for (int i = 0; i < rule.n; ++i) sum += rule.w[i] * f(rule.x[i]);
+    return sum;
+  }
+
+ private:
+  struct Rule {
+    int n;
+    const double *x, *w;
+  };
+  std::array<Rule, kMost> of_;
+
+  Rules() { fill(std::make_integer_sequence<int, kMost>()); }
+  template <int... N>
+  void fill(std::integer_sequence<int, N...>) {
+    of_ = {Rule{N + 1, gauss<N + 1>().x.data(), gauss<N + 1>().w.data()}...};
+  }
+};
+
 /// Places between -1 and 1 where an integral is to be cut.
 class Cuts {
  public:
@@ -45,18 +75,19 @@ class Cuts {
   }
   bool empty() const { return size_ == 0; }
 
-  /// Sum of f over the parts from the first place to 1, `N` points each that crowd at both ends,
-  /// where f may be as a square root.
-  template <int N, class F>
-  double integrate(const F& f) {
+  /// Sum of f over the parts from the first place to 1, with points that crowd at both ends of
+  /// each, where f may be as a square root: `points` in a part as long as all, and fewer the
+  /// shorter.
+  template <class F>
+  double integrate(const F& f, int points) {
     std::sort(at_.begin(), at_.begin() + size_);
     double sum = 0, a = from_;
     for (int i = 0; i <= size_; ++i) {
       const double b = i < size_ ? at_[i] : 1;
       if (b - a > kLeast)
-        sum += mms::integrate<N>(
+        sum += Rules::integrate(
                    [&](double s) { return 6 * s * (1 - s) * f(a + (b - a) * s * s * (3 - 2 * s)); },
-                   0, 1) *
+                   kFew + int(points * std::sqrt((b - a) / 2))) *
                (b - a);
       a = b;
     }
@@ -65,6 +96,7 @@ class Cuts {
 
  private:
   static constexpr double kLeast = 1e-9;
+  static constexpr int kFew = 4;
   double from_;
   std::array<double, 16> at_;
   int size_ = 0;
@@ -73,9 +105,9 @@ class Cuts {
 /// The loss at one facet's interface of relative index `eta`: what it reflects or refracts and
 /// other facets then take, or what leaves to the wrong side. A facet's normal is (x, y, 1), not of
 /// unit length, with x towards `wo` and y across; parts end where reflection or refraction leaves
-/// the surface grazing, or is just total, all of which are conics in (x, y).
-template <int Points, class Facets>
-double interface_loss(const Facets& facets, double eta, Vec3d wo) {
+/// the surface grazing, or is just total, all of which are conics in (x, y). `points`: see Cuts.
+template <class Facets>
+double interface_loss(const Facets& facets, double eta, Vec3d wo, int points) {
   using Slopes = decltype(slopes_of(facets));
   const double z = wo.z, s = std::hypot(wo.x, wo.y), s2 = s * s;
   const double cx = s > 0 ? wo.x / s : 1, cy = s > 0 ? wo.y / s : 0;
@@ -118,11 +150,12 @@ double interface_loss(const Facets& facets, double eta, Vec3d wo) {
       edge((z + s * x) * (z + s * x) / e - 1 - x * x);
     }
     if (!round && (cuts.empty() || across > along)) cuts.add(0);
-    const double sum = cuts.integrate<Points>([&](double m) {
+    const auto at = [&](double m) {
       const double u = Slopes::slope(m), v = u * width / across;
       const double weight = Slopes::derivative(m, u) * Slopes::density(t * t + v * v);
       return weight > 1e-30 ? weight * lost(x, middle + width * u) : 0.0;
-    });
+    };
+    const double sum = cuts.integrate(at, points / 2);  // rows are smoother than their sum
     return (z + s * x) * width * sum;
   };
   const double away = s > 0 ? Slopes::place(-z / s / along) : -1;  // where facets turn away
@@ -142,10 +175,11 @@ double interface_loss(const Facets& facets, double eta, Vec3d wo) {
       edge((e - z * z) / b);
     }
   }
-  const double sum = cuts.integrate<Points>([&](double m) {
+  const auto along_slopes = [&](double m) {
     const double t = Slopes::slope(m), x = along * t;
     return z + s * x > 0 ? Slopes::derivative(m, t) * row(x) : 0.0;
-  });
+  };
+  const double sum = cuts.integrate(along_slopes, points);
   return (round ? 2 : 1) * along * sum / (kPi<double> * ax * ay * (z + hidden_wo));
 }
 

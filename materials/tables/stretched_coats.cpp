@@ -185,8 +185,8 @@ std::vector<Values> differences(const ShapeFit& shapes, double root, const float
   std::vector<Values> all(kStretchedCoatIndex * kStretchedCoatDirection, Values(shapes.count()));
   for (int first = 0, end = 0; first < shapes.count(); first = end) {
     // All shapes of one ring are the same facets, along other directions.
-    const auto [wide, narrow, x0, y0, z0] = shapes.facets(first, root);
-    while (end < shapes.count() && shapes.facets(end, root).wide == wide) ++end;
+    const double aspect = shapes.facets(first).wide, wide = root * aspect, narrow = root / aspect;
+    while (end < shapes.count() && shapes.facets(end).wide == aspect) ++end;
     const Lobe<Distribution<double>> lobe(wide, narrow);
     for (int n = 0; n < kStretchedCoatIndex; ++n) {
       const double eta = index_at(double(n) / (kStretchedCoatIndex - 1));
@@ -195,7 +195,7 @@ std::vector<Values> differences(const ShapeFit& shapes, double root, const float
         const double place = double(d) / (kStretchedCoatDirection - 1);
         const double z = cosine_at(std::max(place, 1e-3)), s = std::sqrt((1 - z) * (1 + z));
         for (int i = first; i < end; ++i) {
-          const auto seen = shapes.facets(i, root);
+          const auto seen = shapes.facets(i);
           const Vec3d w{s * seen.x, s * seen.y, z};
           const double g = lobe.directions().value(mean, w);
           const auto like = CoatedLobe<double>::facets(round, coated_width(wide, narrow, w));

@@ -197,33 +197,27 @@ void check_round(const auto& glass) {
           worst.where);
 }
 
-/// Bounds where the index rises or falls.
-struct Stretched {
-  double anisotropy, rising, falling;
-};
-
-void check_stretched(const auto& glass, std::initializer_list<Stretched> rows) {
-  for (const Stretched& row : rows) {
+void check_stretched(const auto& glass) {
+  for (const double anisotropy : {0.3, -0.6, 0.9}) {
     Worst worst[2];
     for (double index : {1.01, 1.1, 1.5, 4.0})
       for (double ior : {index, 1 / index})
         for (double roughness : {0.16, 0.4, 0.7, 1.0}) {
-          const auto alpha = materials::Alpha<double>::from(roughness, row.anisotropy);
+          const auto alpha = materials::Alpha<double>::from(roughness, anisotropy);
           const typename std::decay_t<decltype(glass)>::Facets facets{alpha.ax, alpha.ay};
-          const Material m = dielectric(ior, roughness, 1, 1, row.anisotropy, glass.lobe);
+          const Material m = dielectric(ior, roughness, 1, 1, anisotropy, glass.lobe);
           for (double degrees : {0.0, 40.0, 70.0, 85.0, 89.99})
             for (double azimuth : {0.2, 0.8, 1.4}) {
               if (kSanitized && (roughness != 0.4 || degrees != 70)) continue;
               const double a = albedo(m, facets, ior, direction(degrees, azimuth));
               worst[ior < 1].meet(a, ior, roughness, degrees);
-              CHECK_MESSAGE(std::abs(a - 1) < (ior < 1 ? row.falling : row.rising), glass.name, " ",
-                            row.anisotropy, " ", ior, " ", roughness, " at ", degrees, " ", azimuth,
-                            ": ", a - 1);
+              CHECK_MESSAGE(std::abs(a - 1) < 1e-3, glass.name, " ", anisotropy, " ", ior, " ",
+                            roughness, " at ", degrees, " ", azimuth, ": ", a - 1);
             }
         }
     for (const Worst& w : worst)
-      MESSAGE(glass.name, ", anisotropy ", row.anisotropy, ": largest |albedo - 1| of ", w.cases,
-              ": ", w.error, ", at index ", w.where);
+      MESSAGE(glass.name, ", anisotropy ", anisotropy, ": largest |albedo - 1| of ", w.cases, ": ",
+              w.error, ", at index ", w.where);
   }
 }
 
@@ -237,7 +231,7 @@ TEST_CASE("white rough glass is lossless within 1e-3, from both sides and up to 
   check_round(kBeckmann);
 }
 
-TEST_CASE("white rough glass of stretched facets loses and gains little") {
-  check_stretched(kGgx, {{0.3, 1e-3, 1e-3}, {-0.6, 1e-3, 1e-3}, {0.9, 1e-3, 2e-3}});
-  check_stretched(kBeckmann, {{0.3, 1e-3, 1e-3}, {-0.6, 1e-3, 2e-3}, {0.9, 1e-3, 8e-3}});
+TEST_CASE("white rough glass of stretched facets is too, up to anisotropy 0.9") {
+  check_stretched(kGgx);
+  check_stretched(kBeckmann);
 }
