@@ -77,7 +77,7 @@ struct Ggx : Alpha<R> {
 
   static const FacetTables& tables() { return kGgxTables; }
   static const InterfaceTables& interface() { return kGgxInterface; }
-  static const float* coated() { return kGgxCoated; }
+  static const CoatedTables& coated() { return kGgxCoated; }
   static constexpr double kCoatedGain = 0.037;
 };
 
@@ -127,7 +127,7 @@ struct Beckmann : Alpha<R> {
 
   static const FacetTables& tables() { return kBeckmannTables; }
   static const InterfaceTables& interface() { return kBeckmannInterface; }
-  static const float* coated() { return kBeckmannCoated; }
+  static const CoatedTables& coated() { return kBeckmannCoated; }
   static constexpr double kCoatedGain = 0.048;
 
  private:
