@@ -35,9 +35,10 @@
 /// one loses 2e-3 at most, next to a mirror 4e-3, and gains 4e-4 at most (3e-4 of it as a matte
 /// base does, at indices near 4), for indices from 1.02 to 4. Stretched facets get 1 - max(E, E').
 ///
-/// Where a coat lies under such a coat of T = 1 - F, which may be plastic under varnish, the
-/// Lambert lobes right below both get the product of what both let through over its own mean,
-///   base: T T' (1 - E)(1 - E') / mean T (1 - F_below)
+/// Where a coat lies under such a coat, or a polished one (of T = 1 - F, or 1 - E where that is
+/// rough; it may be plastic under varnish), the Lambert lobes right below both get the product of
+/// what both let through over its own mean,
+///   base: T T' (1 - E)(1 - E') / mean (1 - F_above)(1 - F_below)
 /// and the lower coat's lobe what any lobe below the upper one gets. Never more than 1; at
 /// most 1.3% is lost, by a lower coat that is broad. Of deeper nests, and of others, only the
 /// `fresnel_mix` nearest the Lambert lobe uses the product, for the same bound.
@@ -149,7 +150,7 @@ inline void weigh_fresnel_mix(const R* ior, const CoatLobe<R>& lobe, R cos_o, R 
   Spectrum<R> reflects;
   for_each_index(ior, [&](int j, bool repeated) {
     const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
-    const R above = w.coat && !w.lobe.table ? relative_eta(w.coat[j], Vec3<R>{0, 0, 1}) : R(0);
+    const R above = w.coat ? relative_eta(w.coat[j], Vec3<R>{0, 0, 1}) : R(0);
     const bool known = above > 1 && eta > 1;
     if (!repeated || above != last_above) kept = mean_through(eta, above);
     last_above = above;

@@ -125,6 +125,25 @@ TEST_CASE("plastic under a polished coat loses little, and never gains") {
     }
 }
 
+TEST_CASE("plastic under a rough coat loses little, and never gains") {
+  Range a;
+  for (int k = 1; k <= (kSanitized ? 4 : 80); ++k) {
+    const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
+    const auto ior = [&](double step) { return 1.02 * std::pow(2.5 / 1.02, place(step)); };
+    const auto top = [&](double x) {
+      return k % 4 < 2 ? microfacet(1, 0.1 + 0.9 * x) : glossy(1, std::expm1(7 * x));
+    };
+    const Material below =
+        k % 2 ? glossy(1, std::expm1(7 * place(0.8192))) : microfacet(1, 0.1 + 0.9 * place(0.8192));
+    const Material plastic = fresnel_mix(matte(1), below, ior(0.5497));
+    a.add(albedo(coat(top(place(0.6710)), plastic, 0, 0, ior(0.4503)),
+                 kAngles[k % std::size(kAngles)], 0, 8));
+  }
+  CHECK(a.least > 0.985);
+  CHECK(a.most < 1 + 1e-4);
+  MESSAGE("albedo from ", a.least, " to ", a.most);
+}
+
 TEST_CASE("stretched facets under a coat lose, and hardly gain") {
   for (const bool ggx : {true, false}) {
     const std::string name = ggx ? "microfacet" : "beckmann";
