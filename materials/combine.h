@@ -32,7 +32,7 @@
 /// next to a mirror, of a roughness below 0.1: 2e-3).
 ///
 /// Facets that are round, `glossy` and `rough_matte` get g(wo) g(wi) for T = 1 - E there: a white
-/// one loses 2e-3 at most, next to a mirror 4e-3, and gains 4e-4 at most (3e-4 of it as a matte
+/// one loses 3e-3 at most, next to a mirror 5e-3, and gains 4e-4 at most (3e-4 of it as a matte
 /// base does, at indices near 4), for indices from 1.02 to 4. Stretched facets get 1 - max(E, E').
 ///
 /// Where a coat lies under such a coat, or a polished one (of T = 1 - F, or 1 - E where that is
