@@ -297,7 +297,7 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
         const Lobes<R> l = model.evaluate(wo, wi, mode);
         total.pdf += l.pdf * choice.probability.of[i];
         if constexpr (requires { model.coated(wo); }) {
-          if (weights.of[i].coat) {
+          if (weights.of[i].coat && !(share > 0 && weights.of[i].nested)) {
             total.f +=
                 l.f * coated_weight(weights.of[i], model.coated(wo), model.coated(wi), wo.z, wi.z);
             return 0;

@@ -14,15 +14,14 @@
 /// layer twice, along the refracted directions: exp(-absorption thickness (1 / c + 1 / c')) on
 /// `base`, where c^2 = 1 - (1 - |wo.z|^2) / ior^2, c' alike for wi.
 ///
-/// Where the coat lets 1 - F through and the index is above 1, facets and `glossy` right below it
-/// get
+/// Where the index is above 1, facets, `glossy` and `rough_matte` right below the coat get
 ///   base: g(wo) g(wi)           (materials/coated.h), whose mean over the lobe is 1 - F
 ///
-/// All are symmetric. A lossless base under a lossless coat then has albedo 1 within 1e-4
+/// All are symmetric. A lossless base under a lossless polished coat then has albedo 1 within 1e-4
 /// (2e-4 below a roughness of 0.1; stretched facets within 3e-4, beyond anisotropy 0.9 within
-/// 1e-3); under every other it never exceeds 1, as min(F, F') <= F and 1 - max(F, F') <=
-/// 1 - F. A specular coat over a Lambert base is 1 exactly; but near grazing a broad coat loses
-/// much: min(F, F') is small where F' is.
+/// 1e-3); under a coat of which no more is known it never exceeds 1, as min(F, F') <= F
+/// and 1 - max(F, F') <= 1 - F. A specular coat over a Lambert base is 1 exactly; but near grazing
+/// a broad coat loses much: min(F, F') is small where F' is.
 ///
 /// Where the coat is one `glossy` or isotropic `microfacet` and the index above 1, what it reflects
 /// is known: with M(wo) the mean of F' over what it scatters (materials/energy.h) its factor is
@@ -32,15 +31,20 @@
 /// so that a white matte under such a white coat is 1 in every direction, within 1e-4 (facets
 /// next to a mirror, of a roughness below 0.1: 2e-3).
 ///
-/// Where a coat lies under such a coat of T = 1 - F, which may be plastic under varnish, the
-/// Lambert lobes right below both get the product of what both let through over its own mean,
-///   base: T T' (1 - E)(1 - E') / mean T (1 - F_below)
+/// Facets that are round, `glossy` and `rough_matte` get g(wo) g(wi) for T = 1 - E there: a white
+/// one loses 3e-3 at most, next to a mirror 5e-3, and gains 4e-4 at most (3e-4 of it as a matte
+/// base does, at indices near 4), for indices from 1.02 to 4. Stretched facets get 1 - max(E, E').
+///
+/// Where a coat lies under such a coat, or a polished one (of T = 1 - F, or 1 - E where that is
+/// rough; it may be plastic under varnish), the Lambert lobes right below both get the product of
+/// what both let through over its own mean,
+///   base: T T' (1 - E)(1 - E') / mean (1 - F_above)(1 - F_below)
 /// and the lower coat's lobe what any lobe below the upper one gets. Never more than 1; at
 /// most 1.3% is lost, by a lower coat that is broad. Of deeper nests, and of others, only the
 /// `fresnel_mix` nearest the Lambert lobe uses the product, for the same bound.
 ///
-/// `rough_matte` gets a share 1 - roughness / 4 of the product, the rest of the other factor: the
-/// largest that never gains (by quadrature over index and roughness); it loses up to 2%.
+/// In a nest, `rough_matte` gets a share 1 - roughness / 4 of the product, the rest of the other
+/// factor: the largest that never gains (by quadrature over index and roughness).
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`:
@@ -53,6 +57,7 @@
 /// else it is taken for the weight: a mixture.
 
 #include <array>
+#include <limits>
 #include <optional>
 
 #include "materials/coated.h"
@@ -68,14 +73,17 @@ namespace mms::materials {
 template <class R>
 struct NodeWeight {
   Spectrum<R> other{R(1)}, lambert{R(1)};
-  /// The indices of the coat right above, which is one that lets through T = 1 - F; null: none.
+  /// The indices of the coat right above; null: none. `lobe` is its own where it is known.
   const R* coat = nullptr;
-  Spectrum<R>
-      coated{};  ///< with it: the factor for lobes with a G of materials/coated.h, times G G'
+  CoatLobe<R> lobe{};
+  bool nested = false;  ///< there is a second coat right above that one
+  /// With it: what it lets through along both directions, and the factor for lobes with a G of
+  /// materials/coated.h, times G G'.
+  Spectrum<R> through_o{}, through_i{}, coated{};
 
   /// The weight of a child that is a part of the node.
   NodeWeight operator*(const Spectrum<R>& part) const {
-    return {other * part, lambert * part, coat, coated * part};
+    return {other * part, lambert * part, coat, lobe, nested, through_o, through_i, coated * part};
   }
 };
 
@@ -107,7 +115,7 @@ inline CoatLobe<R> coat_lobe(const Layout& layout, const R* params, int node) {
 /// base; and the product of what it lets through along both.
 template <class R>
 struct CoatFactors {
-  R coat, base, through;
+  R coat, base, through, through_o, through_i;
 };
 
 template <class R>
@@ -119,7 +127,8 @@ inline CoatFactors<R> coat_factors(R eta, const CoatLobe<R>& lobe, R cos_o, R co
     o.transmitted = (o.transmitted + 1 - lobe.mean_fresnel(eta, cos_o, o.reflected)) / 2;
     i.transmitted = (i.transmitted + 1 - lobe.mean_fresnel(eta, cos_i, i.reflected)) / 2;
   }
-  return {coat, std::min(o.transmitted, i.transmitted), o.transmitted * i.transmitted};
+  return {coat, std::min(o.transmitted, i.transmitted), o.transmitted * i.transmitted,
+          o.transmitted, i.transmitted};
 }
 
 /// The mean of what a coat of relative index `eta` lets through; under another of index `above`,
@@ -153,9 +162,13 @@ inline void weigh_fresnel_mix(const R* ior, const CoatLobe<R>& lobe, R cos_o, R 
     // Elsewhere the factor of a mix above stays in its bounded form: w.other, not w.lambert.
     base.lambert[j] = kept > 0 ? (known ? w.coated[j] : w.other[j]) * f.through / kept : R(0);
     base.coated[j] = w.other[j] * f.through;
+    base.through_o[j] = f.through_o;
+    base.through_i[j] = f.through_i;
   });
   coat = w * reflects;
-  base.coat = lobe.table ? nullptr : ior;
+  base.coat = ior;
+  base.lobe = lobe;
+  base.nested = w.coat;
 }
 
 /// Roughly how a coat splits what comes along `cos_o`.
@@ -288,17 +301,24 @@ inline void weigh(const Layout& layout, const R* params, R cos_o, R cos_i, Mode 
 template <class R>
 inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const CoatedLobe<R>& o,
                                  const CoatedLobe<R>& i, R cos_o, R cos_i) {
+  if (w.lobe.table && o.stretched.table) return w.other;  // of stretched facets no more is known
   cos_o = std::min(std::abs(cos_o), R(1));
   cos_i = std::min(std::abs(cos_i), R(1));
+  std::optional<UnderRoughCoat<R>> rough;
+  if (w.lobe.table) rough.emplace(o, w.lobe);
+  const R whole = rough ? rough->scale() : R(1);
   Spectrum<R> f;
   R scale = 0;
   for_each_index(w.coat, [&](int j, bool repeated) {
     const R eta = relative_eta(w.coat[j], Vec3<R>{0, 0, 1});
     if (!repeated && eta > 1) {
-      const auto squared = [&](const CoatedLobe<R>& lobe, R c) {
-        return lobe.mean_squared(eta, c, fresnel_split(c, eta).transmitted);
+      const auto squared = [&](const CoatedLobe<R>& lobe, R c, R through) {
+        if (!rough) return lobe.mean_squared(eta, c, through);
+        return rough->mean_squared(eta, c, fresnel_split(c, eta).transmitted, through);
       };
-      scale = 1 / (std::sqrt(squared(o, cos_o)) * std::sqrt(squared(i, cos_i)));
+      const R both = std::sqrt(squared(o, cos_o, w.through_o[j])) *
+                     std::sqrt(squared(i, cos_i, w.through_i[j]));
+      scale = both > std::numeric_limits<R>::min() ? whole / both : R(0);
     }
     f[j] = eta > 1 ? scale * w.coated[j] : w.other[j];
   });

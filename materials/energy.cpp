@@ -16,9 +16,18 @@ const FacetTables kBeckmannTables{kBeckmannLoss, kBeckmannMean, kBeckmannStretch
                                   kBeckmannStretchedMean};
 const float* const kGlossyCoat = kGlossyCoatTable;
 const float* const kGgxCoat = kGgxCoatTable;
-const float* const kGgxCoated = kGgxCoatedTable;
-const float* const kBeckmannCoated = kBeckmannCoatedTable;
-const float* const kGlossyCoated = kGlossyCoatedTable;
+const CoatedTables kGgxCoated{kGgxCoatedTable,
+                              {{kGgxUnderFacetsShares, kGgxUnderFacetsShapes},
+                               {kGgxUnderGlossyShares, kGgxUnderGlossyShapes}}};
+const CoatedTables kBeckmannCoated{kBeckmannCoatedTable,
+                                   {{kBeckmannUnderFacetsShares, kBeckmannUnderFacetsShapes},
+                                    {kBeckmannUnderGlossyShares, kBeckmannUnderGlossyShapes}}};
+const CoatedTables kGlossyCoated{kGlossyCoatedTable,
+                                 {{kGlossyUnderFacetsShares, kGlossyUnderFacetsShapes},
+                                  {kGlossyUnderGlossyShares, kGlossyUnderGlossyShapes}}};
+const CoatedTables kMatteCoated{kMatteCoatedTable,
+                                {{kMatteUnderFacetsShares, kMatteUnderFacetsShapes},
+                                 {kMatteUnderGlossyShares, kMatteUnderGlossyShapes}}};
 const float* const kGgxStretchedCoated = kGgxStretchedCoatedTable;
 const float* const kBeckmannStretchedCoated = kBeckmannStretchedCoatedTable;
 const float* const kFresnelProduct = kFresnelProductTable;

@@ -79,6 +79,8 @@ inline constexpr double kLeastBentRoot = 0.1, kLeastBentFourthRoot = 0.15;
 inline constexpr double kLeastBentIndex = 0.1, kMostBentIndex = 0.8801117;
 inline constexpr double kBentIndexPower[] = {0.75, 1.2};
 inline constexpr int kGloss = 33, kCoatAlpha = 25, kCoatIndex = 37, kCoatDirection = 49;
+/// Widths of a coat, of microfacets and of `glossy`, in the tables of what is below it.
+inline constexpr int kRoughCoat[] = {19, 33};
 inline constexpr double kLargestGloss = 5e4;
 
 /// Above the surface.
@@ -477,12 +479,18 @@ template <class R>
 struct CoatLobe {
   const float* table = nullptr;  ///< null: not known
   Stencil<R> width;
+  int kind = 0;       ///< of materials/coated.h: 0 microfacet, 1 glossy
+  Stencil<R> coarse;  ///< the width again, along the axis of the tables of what is below
 
   static CoatLobe glossy(R gloss) {
-    return {kGlossyCoat, Stencil<R>::at(axes::gloss(gloss), axes::kGloss)};
+    const R place = axes::gloss(gloss);
+    return {kGlossyCoat, Stencil<R>::at(place, axes::kGloss), 1,
+            Stencil<R>::at(place, axes::kRoughCoat[1])};
   }
   static CoatLobe microfacet(R alpha) {
-    return {kGgxCoat, Stencil<R>::at(axes::coat_alpha(alpha), axes::kCoatAlpha)};
+    const R place = axes::coat_alpha(alpha);
+    return {kGgxCoat, Stencil<R>::at(place, axes::kCoatAlpha), 0,
+            Stencil<R>::at(place, axes::kRoughCoat[0])};
   }
 
   /// Mean over wi of Fresnel's F(|wi.z|), as the lobe scatters from a direction of |cosine| `z`

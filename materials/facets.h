@@ -76,7 +76,7 @@ struct Ggx : Alpha<R> {
 
   static const FacetTables& tables() { return kGgxTables; }
   static const InterfaceTables& interface() { return kGgxInterface; }
-  static const float* coated() { return kGgxCoated; }
+  static const CoatedTables& coated() { return kGgxCoated; }
   static const float* stretched_coated() { return kGgxStretchedCoated; }
 };
 
@@ -126,7 +126,7 @@ struct Beckmann : Alpha<R> {
 
   static const FacetTables& tables() { return kBeckmannTables; }
   static const InterfaceTables& interface() { return kBeckmannInterface; }
-  static const float* coated() { return kBeckmannCoated; }
+  static const CoatedTables& coated() { return kBeckmannCoated; }
   static const float* stretched_coated() { return kBeckmannStretchedCoated; }
 
  private:

@@ -12,6 +12,7 @@
 /// f grows as 1 / |z| where both directions are the same and near grazing. Samples are therefore
 /// drawn evenly over the hemisphere as often as by the cosine: weights stay below 4.
 
+#include "materials/coated.h"
 #include "materials/lobe.h"
 
 namespace mms::materials {
@@ -79,6 +80,7 @@ struct RoughMatte {
   Spectrum<R> estimate(Vec3<R>) const { return colour; }
   /// See detail::lambert_share of materials/bsdf.h.
   R lambert_share() const { return 1 - r / 4; }
+  CoatedLobe<R> coated(Vec3<R>) const { return CoatedLobe<R>::matte(r); }
 
   /// 1 - albedo of one bounce on white, over r a: c1 - G / pi, G = s (theta - s c + 2/3 (c (1 + s +
   /// s^2) / (1 + s) - 1)), which is free of divisions by the cosine.

@@ -182,6 +182,7 @@ Values mean_under(const Lobe& lobe, double eta) {
 template <template <class> class Distribution>
 std::vector<Values> differences(const ShapeFit& shapes, double root, const float* round) {
   using namespace axes;
+  const CoatedTables tables{round, {}};
   std::vector<Values> all(kStretchedCoatIndex * kStretchedCoatDirection, Values(shapes.count()));
   for (int first = 0, end = 0; first < shapes.count(); first = end) {
     // All shapes of one ring are the same facets, along other directions.
@@ -198,7 +199,7 @@ std::vector<Values> differences(const ShapeFit& shapes, double root, const float
           const auto seen = shapes.facets(i);
           const Vec3d w{s * seen.x, s * seen.y, z};
           const double g = lobe.directions().value(mean, w);
-          const auto like = CoatedLobe<double>::facets(round, coated_width(wide, narrow, w));
+          const auto like = CoatedLobe<double>::facets(tables, coated_width(wide, narrow, w));
           all[n * kStretchedCoatDirection + d][i] =
               g * g - like.mean_squared(eta, z, fresnel_split(z, eta).transmitted);
         }

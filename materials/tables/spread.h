@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Lobes as matrices over directions, and the factors that keep what a coat lets through: what the
+/// tables of materials/coated.h are made from. Nothing here is used when rendering.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "materials/facets.h"
+#include "materials/glossy.h"
+#include "materials/oren_nayar.h"
+#include "materials/tables/coats.h"
+#include "materials/tables/grid.h"
+
+namespace mms::materials::tables {
+
+inline constexpr int kNodes = 200;
+
+/// Directions in the middles of as many steps along the axis of the tables.
+struct Directions {
+  Values z = Values(kNodes), weight = Values(kNodes);  ///< of int 2 z dz
+
+  Directions() {
+    for (int k = 0; k < kNodes; ++k) {
+      z[k] = cosine_at((k + 0.5) / kNodes);
+      const double a = cosine_at(double(k) / kNodes), b = cosine_at((k + 1.0) / kNodes);
+      weight[k] = b * b - a * a;
+    }
+  }
+};
+inline const Directions& directions() {
+  static const Directions d;
+  return d;
+}
+
+/// Of four nodes, for Lagrange's cubic: what is linear widens a lobe by a step, which near grazing
+/// is 1e-3 of the mean of T.
+struct Place : Cubic {
+  explicit Place(double place)
+      : Cubic(std::clamp(place * kNodes - 0.5, -0.5, kNodes - 0.5), 0, kNodes - 4) {}
+  static Place of(double z) { return Place(axes::coat_direction(z)); }
+
+  double value(const Values& of) const {
+    double sum = 0;
+    for (int k = 0; k < 4; ++k) sum += weight[k] * of[first + k];
+    return sum;
+  }
+};
+
+/// The lobe as a matrix: at [i][o] what of the light along o is spread to i; sums over i are 1.
+struct Spread {
+  std::vector<Values> to = std::vector<Values>(kNodes, Values(kNodes));
+
+  void add(int from, double z, double share) {
+    const Place p = Place::of(z);
+    for (int k = 0; k < 4; ++k) to[p.first + k][from] += share * p.weight[k];
+  }
+
+  Values sums() const { return mean(Values(kNodes, 1.0)); }
+  Values mean(const Values& of) const {
+    Values m(kNodes);
+    for (int i = 0; i < kNodes; ++i)
+      for (int o = 0; o < kNodes; ++o) m[o] += to[i][o] * of[i];
+    return m;
+  }
+  void normalise() {
+    const Values all = sums();
+    for (Values& line : to)
+      for (int o = 0; o < kNodes; ++o) line[o] /= all[o];
+  }
+};
+
+/// One row of round facets, over slopes as polar coordinates: of a facet that `wo` sees a share of
+/// the area, masked; then what single bounces lose, as materials/energy.h gives it back.
+template <class Facets>
+void add_facets(const Facets& facets, int row, Spread& lobe) {
+  const double z = directions().z[row], s = std::sqrt(1 - z * z), alpha = facets.ax;
+  const double shadow = facets.shadow({s, 0, z});
+  double seen = 0;
+  std::vector<std::pair<double, double>> single;  // cosine and share
+  constexpr int kSlopes = 256, kTurn = 80;
+  for (int k = 0; k < kTurn; ++k) {
+    // A lattice: slopes of one radius for all turns would jump over the horizon as one.
+    const double phi = kPi<double> * (k + 0.5) / kTurn;
+    const double offset = std::fmod((k + 0.5) * std::numbers::phi, 1.0);
+    crowded(kSlopes, offset, [&](double u, double weight) {
+      const double r = alpha * slope(facets, u);
+      const double area = (z + s * r * std::cos(phi)) * weight;  // over the surface
+      if (!(area > 0)) return;
+      seen += area;
+      const Vec3d h = normalize(Vec3d{r * std::cos(phi), r * std::sin(phi), 1});
+      const Vec3d wi = h * (2 * (s * h.x + z * h.z)) - Vec3d{s, 0, z};
+      if (!(wi.z > 0)) return;
+      const double c = std::min(wi.z, 1.0);
+      const double masked = (z + shadow) * c / (z * c + shadow * c + z * facets.shadow(wi));
+      single.emplace_back(c, area * masked);
+    });
+  }
+  for (const auto& [c, share] : single) lobe.add(row, c, share / seen);
+}
+
+inline void give_back(Spread& lobe) {
+  const Values& weight = directions().weight;
+  Values lost = lobe.sums();
+  double mean = 0;
+  for (int o = 0; o < kNodes; ++o) {
+    lost[o] = std::max(0.0, 1 - lost[o]);
+    mean += lost[o] * weight[o];
+  }
+  for (int i = 0; i < kNodes && mean > 0; ++i)
+    for (int o = 0; o < kNodes; ++o) lobe.to[i][o] += lost[o] * lost[i] * weight[i] / mean;
+  lobe.normalise();
+}
+
+template <template <class> class Distribution>
+Spread facet_lobe(double alpha) {
+  Spread lobe;
+  for (int o = 0; o < kNodes; ++o) add_facets(Distribution<double>{{alpha, alpha}}, o, lobe);
+  give_back(lobe);
+  return lobe;
+}
+
+inline Spread glossy_lobe(double gloss) {
+  const Latitude<double> latitude(gloss);
+  Spread lobe;
+  for (int o = 0; o < kNodes; ++o) {
+    const double z = directions().z[o], y = z * z;
+    crowded(512, 0.5, [&](double u, double weight) {
+      const double x = latitude.inverse(u, 1 - u, y, 1 - y);
+      lobe.add(o, std::sqrt(std::clamp(x, 0.0, 1.0)), weight);
+    });
+  }
+  return lobe;
+}
+
+/// `rough_matte`, the mean over the azimuth between both directions.
+inline Spread matte_lobe(double roughness) {
+  using Matte = RoughMatte<double>;
+  const double a = 1 / (1 + Matte::c1 * roughness), more = roughness * a / (Matte::c1 - Matte::c2);
+  const auto& [z, weight] = directions();
+  Spread lobe;
+  for (int o = 0; o < kNodes; ++o) {
+    for (int i = 0; i < kNodes; ++i) {
+      const double s = std::sqrt((1 - z[o] * z[o]) * (1 - z[i] * z[i]));
+      const double single = a * (1 + roughness * s / kPi<double> * (1 / std::max(z[o], z[i]) - 1));
+      const double further = more * Matte::loss(z[o]) * Matte::loss(z[i]);
+      lobe.to[i][o] = (single + further) * weight[i];
+    }
+  }
+  lobe.normalise();
+  return lobe;
+}
+
+/// `make(place)` for places along the axis of widths.
+template <class Make>
+std::vector<Spread> lobes(int count, const Make& make) {
+  std::vector<Spread> all(count);
+  parallel(count, [&](int k) { all[k] = make(double(k) / (count - 1)); });
+  return all;
+}
+
+/// The inverses of axes::index, axes::coat_alpha and axes::gloss.
+inline double index_at(double place) {
+  const double x = std::clamp(place * place * place * place, 1e-7, 1 - 1e-4);
+  return (1 + x) / (1 - x);
+}
+inline double alpha_at(double place) { return std::max(place * place * place * place, 1e-6); }
+inline double gloss_at(double place) { return std::expm1(place * std::log1p(axes::kLargestGloss)); }
+
+}  // namespace mms::materials::tables
