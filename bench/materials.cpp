@@ -101,6 +101,12 @@ constexpr const char* kVariants[] = {
     "beckmann_dielectric(1.5, 0.4, anisotropy = 0.8)",
     "coat(conductor(0.2, 3.4, 0.3), matte(0.5))",
     "coat(mirror(), fresnel_mix(matte(0.5), glossy(1, 40.0)))",
+    "coat(mirror(), microfacet(0.8, 0.4))",
+    "coat(mirror(), microfacet(0.8, 0.4, 0.8))",
+    "coat(mirror(), microfacet(0.8, 0.4), ior = 1.45 + 1e-14 / ($wavelength * $wavelength))",
+    "coat(microfacet(1, 0.3), microfacet(0.8, 0.4))",
+    "coat(microfacet(1, 0.3), microfacet(0.8, 0.4), ior = 1.45 + 1e-14 / ($wavelength * "
+    "$wavelength))",
 };
 
 /// A material that a script made.

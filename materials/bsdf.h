@@ -75,6 +75,8 @@ class Bsdf {
   struct Choice {
     PerNode<Spectrum<R>> probability;  ///< of lobes only
     bool any = false;                  ///< the hero has something to choose from
+    PerNode<CoatAbove<R>> coats;       ///< where there is more than one node
+    PerNode<UnderRoughCoat<R>> under;  ///< of lobes of which `under_rough_coat` is true
   };
   /// For all that comes along `wo`: made once where one `wo` meets many `wi`.
   Choice choose(Vec3<R> wo) const;
@@ -266,6 +268,19 @@ typename Bsdf<R>::Choice Bsdf<R>::choose(Vec3<R> wo) const {
   for (int j = 0; j < kWavelengths; ++j) sum[j] = sum[j] > least ? 1 / sum[j] : R(0);
   for (int i = 0; i < node_count(); ++i) probability[i] *= sum;
   choice.any = sum[0] > 0;
+  find_coats(*layout_, params_, choice.coats);
+  for (int i = 0; i < node_count(); ++i) {
+    const CoatAbove<R>& coat = choice.coats.of[i];
+    if (!coat.lobe.table) continue;
+    with_model(i, 0, [&](const auto& model) {
+      if constexpr (requires { model.coated(wo); }) {
+        const CoatedLobe<R> lobe = model.coated(wo);
+        if (under_rough_coat(coat, lobe) && !detail::is_specular(model))
+          choice.under.of[i].solve(lobe, coat.lobe, coat.ior);
+      }
+      return 0;
+    });
+  }
   return choice;
 }
 
@@ -287,7 +302,7 @@ template <class R>
 Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const {
   Lobes<R> total;
   PerNode<NodeWeight<R>> weights;
-  weigh(*layout_, params_, std::abs(wo.z), std::abs(wi.z), mode, weights);
+  weigh(*layout_, params_, choice.coats, std::abs(wo.z), std::abs(wi.z), mode, weights);
   for (int i = 0; i < node_count(); ++i) {
     with_model(i, 0, [&](const auto& model) {
       using Model = std::decay_t<decltype(model)>;
@@ -297,9 +312,10 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
         const Lobes<R> l = model.evaluate(wo, wi, mode);
         total.pdf += l.pdf * choice.probability.of[i];
         if constexpr (requires { model.coated(wo); }) {
-          if (weights.of[i].coat && !(share > 0 && weights.of[i].nested)) {
-            total.f +=
-                l.f * coated_weight(weights.of[i], model.coated(wo), model.coated(wi), wo.z, wi.z);
+          const CoatAbove<R>& coat = choice.coats.of[i];
+          if (coat.ior && !(share > 0 && coat.nested)) {
+            total.f += l.f * coated_weight(weights.of[i], coat, choice.under.of[i],
+                                           model.coated(wo), model.coated(wi), wo.z, wi.z);
             return 0;
           }
         }
@@ -376,7 +392,10 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u,
   if (in_surface(s.wi)) return {};
   // Sum the deltas of all lobes that fall on this very direction.
   PerNode<NodeWeight<R>> weights;
-  weigh(*layout_, params_, std::abs(wo.z), cos_i, mode, weights);
+  if (node_count() == 1)
+    weights.of[0] = {};
+  else
+    weigh(*layout_, params_, choice.coats, std::abs(wo.z), cos_i, mode, weights);
   for (int i = 0; i < node_count(); ++i) {
     const SpecularTerms<R> t = i == lobe ? mine : terms_of(i);
     for (int j = 0; j < kWavelengths; ++j) {

@@ -14,12 +14,9 @@
 /// f is below K's, and so is what it reflects.
 ///
 /// Tables hold G^2 - T under a polished coat for each width, index above 1 and direction
-/// (materials/tables/coated.cpp): the energy of coat and base is 1 within 1e-4, of facets of a
-/// roughness below 0.1 within 2e-4. Under a coat whose lobe is rough, T is 1 - E = (T + CT) / 2, CT
-/// being what the coat's lobe spreads T to (materials/energy.h), and G^2 depends on both widths
-/// besides. It is put together, for each pair of widths, of the base's own G^2 - T under a polished
-/// coat, of CT - T, and of a few shapes over index and direction that all pairs of widths share.
-/// Then it is raised by as much as would otherwise be gained.
+/// (materials/tables/coated.cpp): the energy of coat and base is 1 within 1e-4. Under a coat whose
+/// lobe is rough, T is 1 - E (materials/energy.h), of another width and an index; there G is solved
+/// for where it is needed, with K as a matrix over few directions (materials/rough_coat.h).
 ///
 /// For stretched facets under a polished coat another table says what theirs is above that of round
 /// ones as wide along the direction, as polynomials over the shape that they have along it
@@ -31,12 +28,9 @@
 
 namespace mms::materials {
 
-/// Nodes of these tables, along the axes of a coat. As many indices keep what the spline rings by
-/// next to infinity, where T changes fast, from those below 4.
 namespace axes {
-inline constexpr int kCoatedAlpha = 37, kCoatedGloss = 65, kCoatedMatte = 5, kCoatedIndex = 49;
-/// Under rough coats: of `glossy`; facets and `rough_matte` as above.
-inline constexpr int kRoughGloss = 33, kRoughIndex = 17;
+/// Widths of `rough_matte`, and directions of a lobe's matrix.
+inline constexpr int kCoatedMatte = 5, kSpread = 32;
 /// Of stretched facets; the axis of the width is that of an interface.
 inline constexpr int kStretchedCoatAlpha = 17, kStretchedCoatIndex = 11,
                      kStretchedCoatDirection = 25, kStretchedCoatDegree = 12;
@@ -46,17 +40,29 @@ template <class R>
 inline R stretched_coat_index(R eta) {
   return (index(eta) - R(kLeastCoatIndex)) / R(kMostCoatIndex - kLeastCoatIndex);
 }
+
+/// Of a direction of |cosine| `z`, for a lobe as wide as cosines of `width`: what a lobe does to
+/// smooth functions changes next to there, and what a coat lets through next to grazing.
+template <class R>
+inline R spread_direction(R z, R width) {
+  const R d = coat_direction(z), s = std::sqrt(std::max((1 - z) * (1 + z), R(0)));
+  return R(0.35) * d * std::sqrt(d) + R(0.65) * direction(z, s, width);
+}
+/// That width of `glossy`.
+template <class R>
+inline R gloss_width(R gloss) {
+  return 1 / std::sqrt(1 + gloss);
+}
 }  // namespace axes
 
-/// Of one kind of lobe. Under a rough coat of microfacets, then of `glossy`:
+/// Of one kind of lobe.
 struct CoatedTables {
-  static constexpr int kShapes = 8, kShares = kShapes + 3;
-
   const float* polished;  ///< [width][index][direction] along the axes of a coat
-  struct {
-    const float* shares;  ///< [width][width of the coat][share]
-    const float* shapes;  ///< [index][direction][shape]
-  } rough[2];
+  /// [width][column][direction o]: int K l |cos i| di for each of axes::kSpread polynomials l over
+  /// axes::spread_direction, which are 1 at one of the directions and 0 at the others. Then the
+  /// cosines of these directions, and their axes::coat_direction.
+  const float* spread;
+  static constexpr int kColumns = axes::kSpread + 2;
 };
 extern const CoatedTables kGgxCoated, kBeckmannCoated, kGlossyCoated, kMatteCoated;
 
@@ -129,12 +135,12 @@ template <class R>
 struct CoatedLobe {
   const CoatedTables* tables;
   Stencil<R> width;
-  Stencil<R> rough{};  ///< the width again, for the tables of rough coats
+  R cosines = 1;  ///< the width as that of axes::spread_direction
   StretchedCoated<R> stretched{};
 
   static CoatedLobe facets(const CoatedTables& tables, R alpha) {
-    const auto width = Stencil<R>::at(axes::coat_alpha(alpha), axes::kCoatedAlpha);
-    return {&tables, width, width};
+    const auto width = Stencil<R>::at(axes::coat_alpha(alpha), axes::kCoatAlpha);
+    return {&tables, width, axes::width(alpha)};
   }
   /// x along the wider axis.
   static CoatedLobe facets(const CoatedTables& round, const float* stretched, R wide, R narrow,
@@ -147,66 +153,22 @@ struct CoatedLobe {
     return lobe;
   }
   static CoatedLobe glossy(R gloss) {
-    const R place = axes::gloss(gloss);
-    return {&kGlossyCoated, Stencil<R>::at(place, axes::kCoatedGloss),
-            Stencil<R>::at(place, axes::kRoughGloss)};
+    return {&kGlossyCoated, Stencil<R>::at(axes::gloss(gloss), axes::kGloss),
+            axes::gloss_width(gloss)};
   }
   static CoatedLobe matte(R roughness) {
-    const auto width = Stencil<R>::at(roughness, axes::kCoatedMatte);
-    return {&kMatteCoated, width, width};
+    return {&kMatteCoated, Stencil<R>::at(roughness, axes::kCoatedMatte)};
   }
 
   /// G^2 - T along a direction of |cosine| `z`, for relative index `eta` > 1.
   R above(R eta, R z) const {
-    const R above = interpolate_coat<axes::kCoatedIndex>(tables->polished, width, eta, z);
+    const R above = interpolate_coat(tables->polished, width, eta, z);
     return stretched.table ? above + stretched.difference(eta, z) : above;
   }
   /// G^2, for T = `through` along the direction. Nowhere below half of T: what rounding leaves of
   /// it next to the surface is kept from 0.
   R mean_squared(R eta, R z, R through) const {
     return std::max(through + above(eta, z), through / 2);
-  }
-};
-
-/// A lobe that is not stretched under one rough coat.
-template <class R>
-struct UnderRoughCoat {
-  static constexpr int kShapes = CoatedTables::kShapes, kShares = CoatedTables::kShares;
-
-  CoatedLobe<R> lobe;
-  const float* shapes;
-  R share[kShares] = {};  ///< of the lobe's own G^2 - T, of 1 - E - T, of the factor, of the shapes
-
-  UnderRoughCoat(const CoatedLobe<R>& base, const CoatLobe<R>& coat)
-      : lobe(base), shapes(base.tables->rough[coat.kind].shapes) {
-    const int coats = coefficients(axes::kRoughCoat[coat.kind]);
-    const float* shares = base.tables->rough[coat.kind].shares;
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j) {
-        const float* p =
-            shares + ((base.rough.first + i) * coats + coat.coarse.first + j) * kShares;
-        const R weight = base.rough.weight[i] * coat.coarse.weight[j];
-        for (int k = 0; k < kShares; ++k) share[k] += weight * R(p[k]);
-      }
-  }
-
-  R scale() const { return share[2]; }
-
-  /// G^2, for T = `bare` and 1 - E = `through` along the direction.
-  R mean_squared(R eta, R z, R bare, R through) const {
-    using namespace axes;
-    const auto n = Stencil<R>::at(index(eta), kRoughIndex);
-    const auto d = Stencil<R>::at(coat_direction(z), kCoatDirection);
-    R sum = through + share[0] * lobe.above(eta, z) + share[1] * (through - bare);
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j) {
-        const float* p =
-            shapes + ((n.first + i) * coefficients(kCoatDirection) + d.first + j) * kShapes;
-        R of = 0;
-        for (int k = 0; k < kShapes; ++k) of += share[3 + k] * R(p[k]);
-        sum += n.weight[i] * d.weight[j] * of;
-      }
-    return std::max(sum, through / 2);
   }
 };
 

@@ -18,22 +18,20 @@
 ///   base: g(wo) g(wi)           (materials/coated.h), whose mean over the lobe is 1 - F
 ///
 /// All are symmetric. A lossless base under a lossless polished coat then has albedo 1 within 1e-4
-/// (2e-4 below a roughness of 0.1; stretched facets within 3e-4, beyond anisotropy 0.9 within
-/// 1e-3); under a coat of which no more is known it never exceeds 1, as min(F, F') <= F
-/// and 1 - max(F, F') <= 1 - F. A specular coat over a Lambert base is 1 exactly; but near grazing
-/// a broad coat loses much: min(F, F') is small where F' is.
+/// (stretched facets within 3e-4, beyond anisotropy 0.9 within 1e-3); under a coat of which no more
+/// is known it never exceeds 1, as min(F, F') <= F and 1 - max(F, F') <= 1 - F. A specular coat
+/// over a Lambert base is 1 exactly; but near grazing a broad coat loses much: min(F, F') is small
+/// where F' is.
 ///
 /// Where the coat is one `glossy` or isotropic `microfacet` and the index above 1, what it reflects
 /// is known: with M(wo) the mean of F' over what it scatters (materials/energy.h) its factor is
 ///   coat: (F + F') / 2          which reflects E(wo) = (F + M(wo)) / 2
 ///   base: 1 - max(E, E')        or, for the Lambert lobes right below it,
 ///         (1 - E)(1 - E') / (1 - mean F)   as the means of E and F are the same
-/// so that a white matte under such a white coat is 1 in every direction, within 1e-4 (facets
-/// next to a mirror, of a roughness below 0.1: 2e-3).
+/// so that a white matte under such a white coat is 1 in every direction, within 1e-4.
 ///
-/// Facets that are round, `glossy` and `rough_matte` get g(wo) g(wi) for T = 1 - E there: a white
-/// one loses 3e-3 at most, next to a mirror 5e-3, and gains 4e-4 at most (3e-4 of it as a matte
-/// base does, at indices near 4), for indices from 1.02 to 4. Stretched facets get 1 - max(E, E').
+/// Facets that are round, `glossy` and `rough_matte` get g(wo) g(wi) for T = 1 - E there
+/// (materials/rough_coat.h), within 1e-4. Stretched facets get 1 - max(E, E').
 ///
 /// Where a coat lies under such a coat, or a polished one (of T = 1 - F, or 1 - E where that is
 /// rough; it may be plastic under varnish), the Lambert lobes right below both get the product of
@@ -65,6 +63,7 @@
 #include "materials/fresnel.h"
 #include "materials/layout.h"
 #include "materials/lobe.h"
+#include "materials/rough_coat.h"
 #include "materials/sheen.h"
 
 namespace mms::materials {
@@ -73,18 +72,22 @@ namespace mms::materials {
 template <class R>
 struct NodeWeight {
   Spectrum<R> other{R(1)}, lambert{R(1)};
-  /// The indices of the coat right above; null: none. `lobe` is its own where it is known.
-  const R* coat = nullptr;
-  CoatLobe<R> lobe{};
-  bool nested = false;  ///< there is a second coat right above that one
-  /// With it: what it lets through along both directions, and the factor for lobes with a G of
-  /// materials/coated.h, times G G'.
+  /// Where a coat is right above: what it lets through along both directions, and the factor for
+  /// lobes with a G of materials/coated.h, times G G'.
   Spectrum<R> through_o{}, through_i{}, coated{};
 
   /// The weight of a child that is a part of the node.
   NodeWeight operator*(const Spectrum<R>& part) const {
-    return {other * part, lambert * part, coat, lobe, nested, through_o, through_i, coated * part};
+    return {other * part, lambert * part, through_o, through_i, coated * part};
   }
+};
+
+/// The coat right above a node.
+template <class R>
+struct CoatAbove {
+  const R* ior = nullptr;  ///< its indices; null: there is none
+  CoatLobe<R> lobe{};      ///< its own, where it is known
+  bool nested = false;     ///< there is a second coat right above that one
 };
 
 /// One entry for each node of a layout; entries beyond it are not initialised.
@@ -141,21 +144,21 @@ inline R mean_through(R eta, R above) {
 }
 
 template <class R>
-inline void weigh_fresnel_mix(const R* ior, const CoatLobe<R>& lobe, R cos_o, R cos_i,
+inline void weigh_fresnel_mix(const CoatAbove<R>& mix, const R* ior_above, R cos_o, R cos_i,
                               const NodeWeight<R>& w, NodeWeight<R>& base, NodeWeight<R>& coat) {
   cos_o = limited(cos_o, R(0), R(1));
   cos_i = limited(cos_i, R(0), R(1));
   CoatFactors<R> f{};
   R kept = 1, last_above = 0;
   Spectrum<R> reflects;
-  for_each_index(ior, [&](int j, bool repeated) {
-    const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
-    const R above = w.coat ? relative_eta(w.coat[j], Vec3<R>{0, 0, 1}) : R(0);
+  for_each_index(mix.ior, [&](int j, bool repeated) {
+    const R eta = relative_eta(mix.ior[j], Vec3<R>{0, 0, 1});
+    const R above = ior_above ? relative_eta(ior_above[j], Vec3<R>{0, 0, 1}) : R(0);
     const bool known = above > 1 && eta > 1;
     if (!repeated || above != last_above) kept = mean_through(eta, above);
     last_above = above;
     if (!repeated)
-      f = coat_factors(eta, lobe, cos_o, cos_i, fresnel_split(cos_o, eta),
+      f = coat_factors(eta, mix.lobe, cos_o, cos_i, fresnel_split(cos_o, eta),
                        fresnel_split(cos_i, eta));
     reflects[j] = f.coat;
     base.other[j] = w.other[j] * f.base;
@@ -166,9 +169,6 @@ inline void weigh_fresnel_mix(const R* ior, const CoatLobe<R>& lobe, R cos_o, R 
     base.through_i[j] = f.through_i;
   });
   coat = w * reflects;
-  base.coat = ior;
-  base.lobe = lobe;
-  base.nested = w.coat;
 }
 
 /// Roughly how a coat splits what comes along `cos_o`.
@@ -254,10 +254,31 @@ inline bool weigh_by_numbers(const Layout::Node& node, const R* p, int i, Weight
 
 }  // namespace detail
 
+/// The coats right above every node.
+template <class R>
+inline void find_coats(const Layout& layout, const R* params, PerNode<CoatAbove<R>>& coats) {
+  const auto nodes = layout.nodes();
+  auto& above = coats.of;
+  above[nodes.size() - 1] = {};
+  for (int i = int(nodes.size()) - 1; i >= 0; --i) {
+    const Layout::Node& node = nodes[i];
+    const R* p = params + node.first_param;
+    for (int c = 0; c < node.child_count; ++c) above[node.children[c]] = above[i];
+    const int a = node.children[0], b = node.children[1];
+    const bool nested = above[i].ior;
+    if (node.lobe == Lobe::FresnelMix)
+      above[a] = {p, detail::coat_lobe(layout, params, b), nested};
+    else if (node.lobe == Lobe::Coat)
+      above[b] = {p + 1 + kWavelengths, detail::coat_lobe(layout, params, a), nested};
+    else if (node.lobe == Lobe::Layer && nodes[a].lobe == Lobe::Sheen)
+      above[b] = {};
+  }
+}
+
 /// Factors for the pair of directions, for every node.
 template <class R>
-inline void weigh(const Layout& layout, const R* params, R cos_o, R cos_i, Mode mode,
-                  PerNode<NodeWeight<R>>& weights) {
+inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove<R>>& coats,
+                  R cos_o, R cos_i, Mode mode, PerNode<NodeWeight<R>>& weights) {
   const auto nodes = layout.nodes();
   auto& w = weights.of;
   w[nodes.size() - 1] = NodeWeight<R>{};
@@ -278,12 +299,10 @@ inline void weigh(const Layout& layout, const R* params, R cos_o, R cos_i, Mode 
         break;
       }
       case Lobe::FresnelMix:
-        detail::weigh_fresnel_mix(p, detail::coat_lobe(layout, params, b), cos_o, cos_i, w[i], w[a],
-                                  w[b]);
+        detail::weigh_fresnel_mix(coats.of[a], coats.of[i].ior, cos_o, cos_i, w[i], w[a], w[b]);
         break;
       case Lobe::Coat:
-        detail::weigh_fresnel_mix(p + 1 + kWavelengths, detail::coat_lobe(layout, params, a), cos_o,
-                                  cos_i, w[i], w[b], w[a]);
+        detail::weigh_fresnel_mix(coats.of[b], coats.of[i].ior, cos_o, cos_i, w[i], w[b], w[a]);
         detail::dim_by_layer(p, cos_o, cos_i, [&](int j, R through) {
           w[b].other[j] *= through;
           w[b].lambert[j] *= through;
@@ -296,29 +315,35 @@ inline void weigh(const Layout& layout, const R* params, R cos_o, R cos_i, Mode 
   }
 }
 
-/// The factor for a lobe right below a coat, from those of its node; `o` and `i` are the lobe along
-/// the two directions.
+/// Whether materials/rough_coat.h is asked for a lobe under that coat.
 template <class R>
-inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const CoatedLobe<R>& o,
+inline bool under_rough_coat(const CoatAbove<R>& coat, const CoatedLobe<R>& lobe) {
+  return coat.lobe.table && !lobe.stretched.table;
+}
+
+/// The factor for a lobe right below a coat, from those of its node; `o` and `i` are the lobe along
+/// the two directions, `under` what is known of it under a rough coat.
+template <class R>
+inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const CoatAbove<R>& coat,
+                                 const UnderRoughCoat<R>& under, const CoatedLobe<R>& o,
                                  const CoatedLobe<R>& i, R cos_o, R cos_i) {
-  if (w.lobe.table && o.stretched.table) return w.other;  // of stretched facets no more is known
+  const bool rough = under_rough_coat(coat, o);
+  if (coat.lobe.table && !rough) return w.other;  // of stretched facets no more is known
   cos_o = std::min(std::abs(cos_o), R(1));
   cos_i = std::min(std::abs(cos_i), R(1));
-  std::optional<UnderRoughCoat<R>> rough;
-  if (w.lobe.table) rough.emplace(o, w.lobe);
-  const R whole = rough ? rough->scale() : R(1);
+  typename UnderRoughCoat<R>::Along along_o, along_i;
+  if (rough) along_o = under.along(o, cos_o), along_i = under.along(i, cos_i);
   Spectrum<R> f;
   R scale = 0;
-  for_each_index(w.coat, [&](int j, bool repeated) {
-    const R eta = relative_eta(w.coat[j], Vec3<R>{0, 0, 1});
+  for_each_index(coat.ior, [&](int j, bool repeated) {
+    const R eta = relative_eta(coat.ior[j], Vec3<R>{0, 0, 1});
     if (!repeated && eta > 1) {
-      const auto squared = [&](const CoatedLobe<R>& lobe, R c, R through) {
-        if (!rough) return lobe.mean_squared(eta, c, through);
-        return rough->mean_squared(eta, c, fresnel_split(c, eta).transmitted, through);
-      };
-      const R both = std::sqrt(squared(o, cos_o, w.through_o[j])) *
-                     std::sqrt(squared(i, cos_i, w.through_i[j]));
-      scale = both > std::numeric_limits<R>::min() ? whole / both : R(0);
+      const R of_o = rough ? under.mean_squared(j, along_o, w.through_o[j])
+                           : o.mean_squared(eta, cos_o, w.through_o[j]);
+      const R of_i = rough ? under.mean_squared(j, along_i, w.through_i[j])
+                           : i.mean_squared(eta, cos_i, w.through_i[j]);
+      const R both = std::sqrt(of_o) * std::sqrt(of_i);
+      scale = both > std::numeric_limits<R>::min() ? 1 / both : R(0);
     }
     f[j] = eta > 1 ? scale * w.coated[j] : w.other[j];
   });

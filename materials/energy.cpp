@@ -16,18 +16,10 @@ const FacetTables kBeckmannTables{kBeckmannLoss, kBeckmannMean, kBeckmannStretch
                                   kBeckmannStretchedMean};
 const float* const kGlossyCoat = kGlossyCoatTable;
 const float* const kGgxCoat = kGgxCoatTable;
-const CoatedTables kGgxCoated{kGgxCoatedTable,
-                              {{kGgxUnderFacetsShares, kGgxUnderFacetsShapes},
-                               {kGgxUnderGlossyShares, kGgxUnderGlossyShapes}}};
-const CoatedTables kBeckmannCoated{kBeckmannCoatedTable,
-                                   {{kBeckmannUnderFacetsShares, kBeckmannUnderFacetsShapes},
-                                    {kBeckmannUnderGlossyShares, kBeckmannUnderGlossyShapes}}};
-const CoatedTables kGlossyCoated{kGlossyCoatedTable,
-                                 {{kGlossyUnderFacetsShares, kGlossyUnderFacetsShapes},
-                                  {kGlossyUnderGlossyShares, kGlossyUnderGlossyShapes}}};
-const CoatedTables kMatteCoated{kMatteCoatedTable,
-                                {{kMatteUnderFacetsShares, kMatteUnderFacetsShapes},
-                                 {kMatteUnderGlossyShares, kMatteUnderGlossyShapes}}};
+const CoatedTables kGgxCoated{kGgxCoatedTable, kGgxSpreadTable};
+const CoatedTables kBeckmannCoated{kBeckmannCoatedTable, kBeckmannSpreadTable};
+const CoatedTables kGlossyCoated{kGlossyCoatedTable, kGlossySpreadTable};
+const CoatedTables kMatteCoated{kMatteCoatedTable, kMatteSpreadTable};
 const float* const kGgxStretchedCoated = kGgxStretchedCoatedTable;
 const float* const kBeckmannStretchedCoated = kBeckmannStretchedCoatedTable;
 const float* const kFresnelProduct = kFresnelProductTable;

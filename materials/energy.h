@@ -78,9 +78,9 @@ inline constexpr int kBentMeanAlpha = 17, kBentMeanAspect = 8, kBentMeanIndex = 
 inline constexpr double kLeastBentRoot = 0.1, kLeastBentFourthRoot = 0.15;
 inline constexpr double kLeastBentIndex = 0.1, kMostBentIndex = 0.8801117;
 inline constexpr double kBentIndexPower[] = {0.75, 1.2};
-inline constexpr int kGloss = 33, kCoatAlpha = 25, kCoatIndex = 37, kCoatDirection = 49;
-/// Widths of a coat, of microfacets and of `glossy`, in the tables of what is below it.
-inline constexpr int kRoughCoat[] = {19, 33};
+/// Of a coat and of lobes below one. As many indices keep what the spline rings by next to
+/// infinity, where what is let through changes fast, from those below 4.
+inline constexpr int kCoatAlpha = 37, kGloss = 65, kCoatIndex = 49, kCoatDirection = 49;
 inline constexpr double kLargestGloss = 5e4;
 
 /// Above the surface.
@@ -463,14 +463,13 @@ inline R transmitted_share(R mean_here, R mean_there, R eta) {
   return there / (mean_here + there);
 }
 
-/// What the table of a coat holds for a lobe's width, relative index `eta` > 1 and |cosine| `z`;
-/// `Indices` are its nodes along the index.
-template <int Indices = axes::kCoatIndex, class R>
+/// What the table of a coat holds for a lobe's width, relative index `eta` > 1 and |cosine| `z`.
+template <class R>
 inline R interpolate_coat(const float* table, const Stencil<R>& width, R eta, R z) {
   using namespace axes;
-  const auto n = Stencil<R>::at(index(eta), Indices);
+  const auto n = Stencil<R>::at(index(eta), kCoatIndex);
   const auto d = Stencil<R>::at(coat_direction(z), kCoatDirection);
-  constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(Indices);
+  constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatIndex);
   return interpolate(table, width, n0, n, n1, d);
 }
 
@@ -479,24 +478,22 @@ template <class R>
 struct CoatLobe {
   const float* table = nullptr;  ///< null: not known
   Stencil<R> width;
-  int kind = 0;       ///< of materials/coated.h: 0 microfacet, 1 glossy
-  Stencil<R> coarse;  ///< the width again, along the axis of the tables of what is below
 
   static CoatLobe glossy(R gloss) {
-    const R place = axes::gloss(gloss);
-    return {kGlossyCoat, Stencil<R>::at(place, axes::kGloss), 1,
-            Stencil<R>::at(place, axes::kRoughCoat[1])};
+    return {kGlossyCoat, Stencil<R>::at(axes::gloss(gloss), axes::kGloss)};
   }
   static CoatLobe microfacet(R alpha) {
-    const R place = axes::coat_alpha(alpha);
-    return {kGgxCoat, Stencil<R>::at(place, axes::kCoatAlpha), 0,
-            Stencil<R>::at(place, axes::kRoughCoat[0])};
+    return {kGgxCoat, Stencil<R>::at(axes::coat_alpha(alpha), axes::kCoatAlpha)};
   }
 
   /// Mean over wi of Fresnel's F(|wi.z|), as the lobe scatters from a direction of |cosine| `z`
   /// with reflectance `f` there; `eta` > 1.
   R mean_fresnel(R eta, R z, R f) const {
-    const R mean = f + interpolate_coat(table, width, eta, z);
+    return mean_of(f, interpolate_coat(table, width, eta, z));
+  }
+  /// That, from what the table says.
+  static R mean_of(R f, R difference) {
+    const R mean = f + difference;
     return mean > 0 ? std::min(mean, R(1)) : R(0);
   }
 };

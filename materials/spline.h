@@ -34,14 +34,14 @@ constexpr int coefficients(int nodes) { return nodes + 2; }
 
 /// The table's value; the last stencil's axis is the innermost. `stride` is of one step of the
 /// first axis and given for each axis but the last.
-template <class R>
-inline R interpolate(const float* table, const Stencil<R>& a) {
-  const float* p = table + a.first;
+template <class T, class R>
+inline R interpolate(const T* table, const Stencil<R>& a) {
+  const T* p = table + a.first;
   return a.weight[0] * R(p[0]) + a.weight[1] * R(p[1]) + a.weight[2] * R(p[2]) +
          a.weight[3] * R(p[3]);
 }
-template <class R, class... Rest>
-inline R interpolate(const float* table, const Stencil<R>& a, int stride, const Rest&... rest) {
+template <class T, class R, class... Rest>
+inline R interpolate(const T* table, const Stencil<R>& a, int stride, const Rest&... rest) {
   R sum = 0;
   for (int k = 0; k < 4; ++k)
     sum += a.weight[k] * interpolate(table + (a.first + k) * stride, rest...);

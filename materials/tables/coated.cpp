@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/coated.h and writes them as C++ to the named file: run by the
-// build, in three minutes of one core.
+// build, in two minutes of one core.
 #include <cstdio>
 #include <string>
 #include <vector>
 
 #include "base/quadrature.h"
-#include "materials/tables/rough_coats.h"
+#include "materials/rough_coat.h"
 #include "materials/tables/spread.h"
 
 namespace mms::materials::tables {
@@ -29,22 +29,19 @@ void write_product(std::FILE* to) {
   write_numbers(to, "kFresnelProductTable", {spline.begin(), spline.end()});
 }
 
-/// G^2 - T, for every lobe and index. Returns the table.
-std::vector<float> write_coated(std::FILE* to, const char* name, const std::vector<Spread>& lobes) {
+/// `value(lobe, eta)` over all directions, for every lobe and index. Returns the table.
+template <class Value>
+std::vector<float> write_lobes(std::FILE* to, const std::string& name,
+                               const std::vector<Spread>& lobes, const Value& value) {
   using namespace axes;
   const int count = int(lobes.size());
-  std::vector<Values> table(std::size_t(count) * kCoatedIndex, Values(kNodes));
+  std::vector<Values> table(std::size_t(count) * kCoatIndex);
   parallel(int(table.size()), [&](int k) {
-    const double eta = index_at(double(k % kCoatedIndex) / (kCoatedIndex - 1));
-    Values through(kNodes);
-    for (int o = 0; o < kNodes; ++o) through[o] = fresnel_split(directions().z[o], eta).transmitted;
-    const Values mean = scaled_mean(lobes[k / kCoatedIndex], through);
-    for (int o = 0; o < kNodes; ++o) table[k][o] = mean[o] * mean[o] - through[o];
+    table[k] = value(lobes[k / kCoatIndex], index_at(double(k % kCoatIndex) / (kCoatIndex - 1)));
   });
-  const Grid grid({count, kCoatedIndex, kCoatDirection}, [&](const double* x) {
+  const Grid grid({count, kCoatIndex, kCoatDirection}, [&](const double* x) {
     const auto at = [](double u, int nodes) { return int(std::lround(u * (nodes - 1))); };
-    const Values& line = table[at(x[0], count) * kCoatedIndex + at(x[1], kCoatedIndex)];
-    return Place(x[2]).value(line);
+    return Place(x[2]).value(table[at(x[0], count) * kCoatIndex + at(x[1], kCoatIndex)]);
   });
   const Values spline = grid.spline();
   const std::vector<float> numbers(spline.begin(), spline.end());
@@ -52,34 +49,82 @@ std::vector<float> write_coated(std::FILE* to, const char* name, const std::vect
   return numbers;
 }
 
-void write_spline(std::FILE* to, const std::string& name, const Grid& grid, int kept) {
-  const Values spline = grid.spline(kept);
-  write_numbers(to, name, {spline.begin(), spline.end()});
+Values fresnel_along_all(double eta) {
+  Values f(kNodes);
+  for (int o = 0; o < kNodes; ++o) f[o] = fresnel_dielectric(directions().z[o], eta);
+  return f;
 }
 
-/// Every so many of the lobes, so that `count` are left.
-std::vector<Spread> some(const std::vector<Spread>& all, int count) {
-  const std::size_t step = (all.size() - 1) / (count - 1);
-  std::vector<Spread> few;
-  for (std::size_t k = 0; k < all.size(); k += step) few.push_back(all[k]);
-  return few;
+/// Fresnel's mean over what the lobe scatters, less what it is at the direction itself.
+std::vector<float> write_coat(std::FILE* to, const std::string& name,
+                              const std::vector<Spread>& lobes) {
+  return write_lobes(to, name + "CoatTable", lobes, [](const Spread& lobe, double eta) {
+    const Values f = fresnel_along_all(eta);
+    Values mean = lobe.mean(f);
+    for (int o = 0; o < kNodes; ++o) mean[o] -= f[o];
+    return mean;
+  });
 }
 
-/// G^2 - (1 - E) of every base under every coat, taken apart.
-void write_under(std::FILE* to, const std::string& name, const std::vector<Spread>& bases,
-                 const std::vector<Spread>& coats) {
-  const RoughCoats all(bases, coats);
-  constexpr int kShares = CoatedTables::kShares, kShapes = CoatedTables::kShapes;
-  Grid shares({int(bases.size()), int(coats.size()), kShares}, [](const double*) { return 0.0; });
-  for (std::size_t k = 0; k < shares.values.size(); ++k)
-    shares.values[k] = all.pairs[k / kShares].share[k % kShares];
-  write_spline(to, name + "Shares", shares, 1);
-  Grid lines({Places::kIndices, Places::kDirections, kShapes}, [](const double*) { return 0.0; });
-  for (std::size_t k = 0; k < lines.values.size(); ++k) {
-    const int place = int(k) / kShapes;
-    lines.values[k] = all.shapes[k % kShapes][place] / Places::weight(place / Places::kDirections);
+/// G^2 - T.
+std::vector<float> write_coated(std::FILE* to, const std::string& name,
+                                const std::vector<Spread>& lobes) {
+  return write_lobes(to, name + "CoatedTable", lobes, [](const Spread& lobe, double eta) {
+    Values through(kNodes);
+    for (int o = 0; o < kNodes; ++o) through[o] = fresnel_split(directions().z[o], eta).transmitted;
+    Values above = scaled_mean(lobe, through);
+    for (int o = 0; o < kNodes; ++o) above[o] = above[o] * above[o] - through[o];
+    return above;
+  });
+}
+
+/// The columns of a lobe's matrix, of cosines and of places.
+Values spread_columns(const Spread& lobe, double width) {
+  constexpr int kDirections = axes::kSpread;
+  const auto& points = SpreadPoints<double>::get();
+  Values columns(CoatedTables::kColumns * kDirections);
+  std::vector<Values> polynomial(kDirections, Values(kNodes));
+  for (int i = 0; i < kNodes; ++i) {
+    const auto weights = points.weights_at(axes::spread_direction(directions().z[i], width));
+    for (int k = 0; k < kDirections; ++k) polynomial[k][i] = weights[k];
   }
-  write_spline(to, name + "Shapes", lines, 1);
+  const auto axis = [&](double z, double) { return axes::spread_direction(z, width); };
+  double* cosines = &columns[kDirections * kDirections];
+  double* places = cosines + kDirections;
+  for (int k = 0; k < kDirections; ++k) {
+    cosines[k] = cosine(points.place[k], axis);
+    places[k] = axes::coat_direction(cosines[k]);
+  }
+  for (int k = 0; k < kDirections; ++k) {
+    const Values mean = lobe.mean(polynomial[k]);
+    for (int j = 0; j < kDirections; ++j)
+      columns[k * kDirections + j] = Place(places[j]).value(mean);
+  }
+  return columns;
+}
+
+/// All lobes of one kind as matrices; `width(place)` along the axis of widths.
+template <class Width>
+void write_spread(std::FILE* to, const std::string& name, const std::vector<Spread>& lobes,
+                  const Width& width) {
+  const int count = int(lobes.size());
+  constexpr int kNumbers = CoatedTables::kColumns * axes::kSpread;
+  Grid grid({count, kNumbers}, [](const double*) { return 0.0; });
+  parallel(count, [&](int k) {
+    const Values columns = spread_columns(lobes[k], width(double(k) / (count - 1)));
+    std::copy(columns.begin(), columns.end(), grid.values.begin() + k * kNumbers);
+  });
+  const Values spline = grid.spline(1);
+  write_numbers(to, name + "SpreadTable", {spline.begin(), spline.end()});
+}
+
+template <template <class> class Distribution>
+std::vector<Spread> facet_lobes() {
+  const std::vector<float> losses = round_losses<Distribution>();
+  return lobes(axes::kCoatAlpha, [&](double x) {
+    const double alpha = alpha_at(x);
+    return facet_lobe(Distribution<double>{{alpha, alpha}}, losses);
+  });
 }
 
 }  // namespace
@@ -90,27 +135,25 @@ int main(int argc, char** argv) {
   using namespace mms::materials::tables;
   return make_tables(argc, argv, [](std::FILE* to) {
     using namespace axes;
-    const auto ggx = lobes(kCoatedAlpha, [](double x) { return facet_lobe<Ggx>(alpha_at(x)); });
-    const auto beckmann =
-        lobes(kCoatedAlpha, [](double x) { return facet_lobe<Beckmann>(alpha_at(x)); });
-    const auto glossy = lobes(kCoatedGloss, [](double x) { return glossy_lobe(gloss_at(x)); });
+    const auto ggx = facet_lobes<Ggx>(), beckmann = facet_lobes<Beckmann>();
+    const auto glossy = lobes(kGloss, [](double x) { return glossy_lobe(gloss_at(x)); });
     const auto matte = lobes(kCoatedMatte, [](double x) { return matte_lobe(x); });
-    const auto facet_coats = some(ggx, kRoughCoat[0]), glossy_coats = some(glossy, kRoughCoat[1]);
-    const auto write = [&](const std::string& name, const std::vector<Spread>& bases, int rough) {
-      const auto round = write_coated(to, (name + "CoatedTable").c_str(), bases);
-      const std::vector<Spread> few = some(bases, rough);
-      write_under(to, name + "UnderFacets", few, facet_coats);
-      write_under(to, name + "UnderGlossy", few, glossy_coats);
-      return round;
+    const auto stretched = [&](const char* name, const std::vector<float>& table) {
+      write_numbers(to, name, table, 4);
     };
-    const auto stretched = [&](const std::string& name, const std::vector<float>& table) {
-      write_numbers(to, name + "StretchedCoatedTable", table, 4);
-    };
-    stretched("kGgx", stretched_coats<Ggx>(write("kGgx", ggx, kCoatedAlpha).data()));
-    stretched("kBeckmann",
-              stretched_coats<Beckmann>(write("kBeckmann", beckmann, kCoatedAlpha).data()));
-    write("kGlossy", glossy, kRoughGloss);
-    write("kMatte", matte, kCoatedMatte);
+    write_coat(to, "kGgx", ggx);
+    write_coat(to, "kGlossy", glossy);
+    stretched("kGgxStretchedCoatedTable",
+              stretched_coats<Ggx>(write_coated(to, "kGgx", ggx).data()));
+    stretched("kBeckmannStretchedCoatedTable",
+              stretched_coats<Beckmann>(write_coated(to, "kBeckmann", beckmann).data()));
+    write_coated(to, "kGlossy", glossy);
+    write_coated(to, "kMatte", matte);
+    const auto facet_width = [](double place) { return width(alpha_at(place)); };
+    write_spread(to, "kGgx", ggx, facet_width);
+    write_spread(to, "kBeckmann", beckmann, facet_width);
+    write_spread(to, "kGlossy", glossy, [](double place) { return gloss_width(gloss_at(place)); });
+    write_spread(to, "kMatte", matte, [](double) { return 1.0; });
     write_product(to);
   });
 }

@@ -4,11 +4,10 @@
 #include <cstdio>
 #include <string>
 
-#include "materials/glossy.h"
 #include "materials/tables/grid.h"
+#include "materials/tables/losses.h"
 #include "materials/tables/shapes.h"
 #include "materials/tables/slopes.h"
-#include "materials/tables/visible.h"
 
 namespace mms::materials::tables {
 namespace {
@@ -19,45 +18,6 @@ std::vector<float> write(std::FILE* to, const std::string& name, const Grid& gri
   const std::vector<float> table(spline.begin(), spline.end());
   write_numbers(to, name, table);
   return table;
-}
-
-constexpr int kAngles = 192;
-
-/// The loss of one bounce off lossless facets.
-template <class Facets>
-double loss(const Facets& facets, Vec3d wo, int angles = kAngles) {
-  const auto mirrored = [&](Vec3d h) { return h * (2 * dot(wo, h)) - wo; };
-  const double so = facets.shadow(wo);
-  return visible_mean(
-      facets, wo,
-      [&](Vec3d h) {
-        const Vec3d wi = mirrored(h);
-        if (!(wi.z > 0)) return 1.0;
-        const double s = wo.z * facets.shadow(wi);
-        return s / (wo.z * wi.z + so * wi.z + s);
-      },
-      [&](Vec3d h) { return std::array{mirrored(h).z}; }, angles);
-}
-
-/// cos theta from its place along an axis that maps a cosine and a sine, by halving.
-template <class Axis>
-double cosine(double place, const Axis& axis) {
-  double lo = 0, hi = 1;
-  for (int i = 0; i < 60; ++i) {
-    const double angle = (lo + hi) * kPi<double> / 4;
-    (axis(std::sin(angle), std::cos(angle)) < place ? lo : hi) = (lo + hi) / 2;
-  }
-  return std::sin(lo * kPi<double> / 2);
-}
-
-constexpr double kLeast = 1e-7;  // an axis' first direction and width, instead of 0
-
-template <template <class> class Distribution>
-double isotropic_loss(double alpha, double place) {
-  alpha = std::max(alpha, 1e-5);
-  const auto axis = [&](double z, double s) { return axes::direction(z, s, axes::width(alpha)); };
-  const double z = std::max(cosine(std::min(place, 1 - kLeast), axis), kLeast * alpha);
-  return loss(Distribution<double>{{alpha, alpha}}, {std::sqrt(1 - z * z), 0, z});
 }
 
 /// Mean over the hemisphere in units of mean_unit of what the tables say, so that what is given
@@ -212,73 +172,11 @@ void write_interface(std::FILE* to, const std::string& name, const RoundInterfac
   }
 }
 
-/// Over x = cos^2, by the inverse of the latitudal distribution.
-double coat_mean(double gloss, double eta, double z) {
-  const Latitude<double> latitude(gloss);
-  const double y = z * z, s2 = (1 - z) * (1 + z);
-  const auto f = [&](double u) {
-    const double x = latitude.inverse(u, 1 - u, y, s2);
-    return fresnel_dielectric(std::sqrt(std::clamp(x, 0.0, 1.0)), eta);
-  };
-  // x grows as a square where it is small: substitute it away at both ends.
-  const auto g = [&](double v) { return 6 * v * (1 - v) * f(v * v * (3 - 2 * v)); };
-  return integrate_adaptive(g, 0, 0.5, 1e-7, 12) + integrate_adaptive(g, 0.5, 1, 1e-7, 12);
-}
-
-void write_coat(std::FILE* to) {
-  using namespace axes;
-  write(to, "kGlossyCoatTable", Grid({kGloss, kCoatIndex, kCoatDirection}, [](const double* x) {
-          const double gloss = std::expm1(x[0] * std::log1p(kLargestGloss));
-          const double eta = index_at(x[1], true);
-          const double z = std::sin(std::max(x[2] * x[2] * x[2] * x[2], 1e-9) * kPi<double> / 2);
-          return coat_mean(gloss, eta, z) - fresnel_dielectric(z, eta);
-        }));
-}
-
-/// Over what lossless facets scatter: at once, and after more bounces as `lost` says.
-double facet_coat_mean(const FacetLoss<double>& lost, double eta, double z) {
-  const double alpha = lost.ax;
-  const Ggx<double> facets{{alpha, alpha}};
-  const Vec3d wo{std::sqrt(1 - z * z), 0, z};
-  const auto mirrored = [&](Vec3d h) { return h * (2 * dot(wo, h)) - wo; };
-  const double so = facets.shadow(wo);
-  const double once = visible_mean(
-      facets, wo,
-      [&](Vec3d h) {
-        const Vec3d wi = mirrored(h);
-        if (!(wi.z > 0)) return 0.0;
-        const double s = z * facets.shadow(wi), c = std::min(wi.z, 1.0);
-        return (z + so) * c / (z * c + so * c + s) * fresnel_dielectric(c, eta);
-      },
-      [&](Vec3d h) { return std::array{mirrored(h).z}; }, kAngles);
-  struct Reflected {
-    const FacetLoss<double>& lost;
-    double eta;
-    double at(Vec3d w) const { return lost.at(w) * fresnel_dielectric(w.z, eta); }
-  };
-  const double a2 = alpha * alpha;
-  return once + lost.at(wo) * mean_loss(Reflected{lost, eta}, a2, 1) / mean_loss(lost, a2, 1);
-}
-
-/// `loss` is the table of GGX.
-void write_facet_coat(std::FILE* to, const std::vector<float>& loss) {
-  using namespace axes;
-  const FacetTables tables{loss.data(), nullptr, nullptr, nullptr};
-  write(to, "kGgxCoatTable", Grid({kCoatAlpha, kCoatIndex, kCoatDirection}, [&](const double* x) {
-          const double a = std::max(x[0] * x[0] * x[0] * x[0], 1e-6), eta = index_at(x[1], true);
-          const double place = std::max(x[2] * x[2] * x[2] * x[2], 1e-9);
-          const double z = std::sin(place * kPi<double> / 2);
-          return facet_coat_mean({&tables, a, a}, eta, z) - fresnel_dielectric(z, eta);
-        }));
-}
-
-/// Returns the isotropic table.
 template <template <class> class Distribution>
-std::vector<float> write_facets(std::FILE* to, const std::string& name) {
+void write_facets(std::FILE* to, const std::string& name) {
   using namespace axes;
-  const auto round = write(to, name + "Loss", Grid({kAlpha, kDirection}, [](const double* x) {
-                             return isotropic_loss<Distribution>(x[0] * x[0], x[1]);
-                           }));
+  const std::vector<float> round = round_losses<Distribution>();
+  write_numbers(to, name + "Loss", round);
   const auto stretched = write(
       to, name + "Stretched",
       Grid({kStretchedAlpha, kAspect, kAzimuth, kStretchedDirection}, [](const double* x) {
@@ -291,8 +189,8 @@ std::vector<float> write_facets(std::FILE* to, const std::string& name) {
           return stretched_direction(c, s, s * stretch, alpha * alpha);
         };
         const double z = std::max(cosine(std::min(x[3], 1 - kLeast), axis), kLeast * alpha);
-        return loss(Distribution<double>{{wide, narrow}},
-                    w * std::sqrt(1 - z * z) + Vec3d{0, 0, z});
+        return loss(Distribution<double>{{wide, narrow}}, w * std::sqrt(1 - z * z) + Vec3d{0, 0, z},
+                    kAngles);
       }));
   const FacetTables tables{round.data(), nullptr, stretched.data(), nullptr};
   write(to, name + "Mean", Grid({kMean}, [&](const double* x) {
@@ -304,7 +202,6 @@ std::vector<float> write_facets(std::FILE* to, const std::string& name) {
           const double narrow = alpha * alpha / wide;
           return mean_loss(FacetLoss<double>{&tables, wide, narrow}, alpha * alpha, 24);
         }));
-  return round;
 }
 
 }  // namespace
@@ -313,9 +210,8 @@ std::vector<float> write_facets(std::FILE* to, const std::string& name) {
 int main(int argc, char** argv) {
   using namespace mms::materials;
   return tables::make_tables(argc, argv, [](std::FILE* to) {
-    tables::write_facet_coat(to, tables::write_facets<Ggx>(to, "kGgx"));
+    tables::write_facets<Ggx>(to, "kGgx");
     tables::write_facets<Beckmann>(to, "kBeckmann");
-    tables::write_coat(to);
     tables::write_interface<Ggx>(to, "kGgx", {kGgxLeastMean, kGgxKink, kGgxBent});
     tables::write_interface<Beckmann>(to, "kBeckmann",
                                       {kBeckmannLeastMean, kBeckmannKink, kBeckmannBent});

@@ -15,7 +15,7 @@
 #include "materials/glossy.h"
 #include "materials/oren_nayar.h"
 #include "materials/tables/coats.h"
-#include "materials/tables/grid.h"
+#include "materials/tables/losses.h"
 
 namespace mms::materials::tables {
 
@@ -75,53 +75,46 @@ struct Spread {
   }
 };
 
-/// One row of round facets, over slopes as polar coordinates: of a facet that `wo` sees a share of
-/// the area, masked; then what single bounces lose, as materials/energy.h gives it back.
+/// What one bounce off round facets, of those that a direction sees, spreads: over a lattice of
+/// them, but for how much it is altogether.
 template <class Facets>
-void add_facets(const Facets& facets, int row, Spread& lobe) {
-  const double z = directions().z[row], s = std::sqrt(1 - z * z), alpha = facets.ax;
-  const double shadow = facets.shadow({s, 0, z});
-  double seen = 0;
-  std::vector<std::pair<double, double>> single;  // cosine and share
-  constexpr int kSlopes = 256, kTurn = 80;
-  for (int k = 0; k < kTurn; ++k) {
-    // A lattice: slopes of one radius for all turns would jump over the horizon as one.
-    const double phi = kPi<double> * (k + 0.5) / kTurn;
-    const double offset = std::fmod((k + 0.5) * std::numbers::phi, 1.0);
-    crowded(kSlopes, offset, [&](double u, double weight) {
-      const double r = alpha * slope(facets, u);
-      const double area = (z + s * r * std::cos(phi)) * weight;  // over the surface
-      if (!(area > 0)) return;
-      seen += area;
-      const Vec3d h = normalize(Vec3d{r * std::cos(phi), r * std::sin(phi), 1});
-      const Vec3d wi = h * (2 * (s * h.x + z * h.z)) - Vec3d{s, 0, z};
-      if (!(wi.z > 0)) return;
-      const double c = std::min(wi.z, 1.0);
-      const double masked = (z + shadow) * c / (z * c + shadow * c + z * facets.shadow(wi));
-      single.emplace_back(c, area * masked);
-    });
+void add_facets(const Facets& facets, int row, double share, Spread& lobe) {
+  const double z = directions().z[row];
+  const Vec3d wo{std::sqrt(1 - z * z), 0, z};
+  const double shadow = facets.shadow(wo);
+  constexpr int kFacets = 20000;
+  std::vector<std::pair<double, double>> single;  // cosine and masking
+  double sum = 0;
+  for (int k = 0; k < kFacets; ++k) {
+    const Vec3d h = facets.sample_visible(wo, std::fmod((k + 0.5) * std::numbers::phi, 1.0),
+                                          (k + 0.5) / kFacets);
+    const double c = 2 * dot(wo, h) * h.z - z;
+    if (!(c > 0)) continue;
+    const Vec3d wi = h * (2 * dot(wo, h)) - wo;
+    single.emplace_back(std::min(c, 1.0),
+                        (z + shadow) * c / (z * c + shadow * c + z * facets.shadow(wi)));
+    sum += single.back().second;
   }
-  for (const auto& [c, share] : single) lobe.add(row, c, share / seen);
+  for (const auto& [c, masked] : single) lobe.add(row, c, masked * share / sum);
 }
 
-inline void give_back(Spread& lobe) {
-  const Values& weight = directions().weight;
-  Values lost = lobe.sums();
+/// With what single bounces lose, as materials/energy.h gives it back: as `losses` has it.
+template <class Facets>
+Spread facet_lobe(const Facets& facets, const std::vector<float>& losses) {
+  const FacetTables tables{losses.data(), nullptr, nullptr, nullptr};
+  const FacetLoss<double> loss{&tables, facets.ax, facets.ay};
+  const auto& [z, weight] = directions();
+  Spread lobe;
+  Values lost(kNodes);
   double mean = 0;
   for (int o = 0; o < kNodes; ++o) {
-    lost[o] = std::max(0.0, 1 - lost[o]);
+    lost[o] = loss.at({std::sqrt(1 - z[o] * z[o]), 0, z[o]});
     mean += lost[o] * weight[o];
+    add_facets(facets, o, 1 - lost[o], lobe);
   }
   for (int i = 0; i < kNodes && mean > 0; ++i)
     for (int o = 0; o < kNodes; ++o) lobe.to[i][o] += lost[o] * lost[i] * weight[i] / mean;
   lobe.normalise();
-}
-
-template <template <class> class Distribution>
-Spread facet_lobe(double alpha) {
-  Spread lobe;
-  for (int o = 0; o < kNodes; ++o) add_facets(Distribution<double>{{alpha, alpha}}, o, lobe);
-  give_back(lobe);
   return lobe;
 }
 

@@ -182,7 +182,7 @@ Values mean_under(const Lobe& lobe, double eta) {
 template <template <class> class Distribution>
 std::vector<Values> differences(const ShapeFit& shapes, double root, const float* round) {
   using namespace axes;
-  const CoatedTables tables{round, {}};
+  const CoatedTables tables{round, nullptr};
   std::vector<Values> all(kStretchedCoatIndex * kStretchedCoatDirection, Values(shapes.count()));
   for (int first = 0, end = 0; first < shapes.count(); first = end) {
     // All shapes of one ring are the same facets, along other directions.
