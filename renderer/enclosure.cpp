@@ -20,8 +20,12 @@ Interval roomy(double low, double high) {
   return vm::reals(low - room, high + room);
 }
 
-/// How often a flight through the middle of a volume looks for what is found at collisions only.
+/// How often a flight through the middle of a volume looks for coefficients that are not a number.
 constexpr double kLeastCollisions = 4;
+
+/// How often along half of the diagonal of a volume that is as bright everywhere its emission is
+/// asked for, and at most along that of a cell.
+constexpr double kLooks = 4, kLooksOfCell = 2;
 
 /// The inputs that any of `values` of an entry reads and that `box` does not fix.
 std::vector<int> positions_read(const vm::Descriptor& d, std::span<const vm::Output> outputs) {
@@ -40,7 +44,7 @@ std::vector<int> positions_read(const vm::Descriptor& d, std::span<const vm::Out
 template <class F>
 double largest(const vm::Box& box, std::span<const int> axes, F f) {
   double most = -Interval::kInf;
-  vm::each_part(box, axes, kMajorantCells, [&](const vm::Box& part) {
+  vm::each_part(box, axes, kRateCells, [&](const vm::Box& part) {
     most = std::max(most, f(part));
     return std::isfinite(most);
   });
@@ -60,6 +64,29 @@ void set_positions(vm::Box& box, const Bounds& world, const Transform& transform
   }
 }
 
+/// `f(box)` for each of kRateCells^3 parts of the box around `o`.
+template <class F>
+std::vector<float> over_cells(const Object& o, F f) {
+  constexpr int n = kRateCells;
+  const Bounds all = bounds(o.shape);
+  const Vec3d cell = (all.high - all.low) / double(n);
+  std::vector<float> values;
+  for (int i = 0; i < n * n * n; ++i) {
+    Bounds part;
+    part.low = all.low + cell * Vec3d{double(i % n), double(i / n % n), double(i / n / n)};
+    part.high = part.low + cell;
+    vm::Box box = box_of(o);
+    set_positions(box, part, o.transform);
+    values.push_back(f(box));
+  }
+  return values;
+}
+
+/// What a value of an entry is, as the function of that says or as it is a constant.
+Interval enclosed(const vm::Program& program, const vm::ValueSource& v, const vm::Enclosure& e) {
+  return v.constant ? vm::interval_of(program.constants[v.index]) : e.results[v.index];
+}
+
 }  // namespace
 
 vm::Box box_of(const Object& o) {
@@ -77,38 +104,50 @@ vm::Box box_of(const Object& o) {
   return box;
 }
 
-MajorantGrid majorants_of(const vm::Program& program, const vm::Descriptor& d, const Object& o,
-                          double bound, bool emits) {
-  constexpr int n = kMajorantCells;
+RateGrid majorants_of(const vm::Program& program, const vm::Descriptor& d, const Object& o,
+                      double bound) {
   vm::BoundsMachine machine(program);
-  const vm::Entry& entry = d.pass;
-  const Bounds all = bounds(o.shape);
-  const Vec3d cell = (all.high - all.low) / double(n);
-  std::vector<float> values;
   std::vector<bool> met;  // of the cells: whether a flight is to meet them, however thin
-  for (int i = 0; i < n * n * n; ++i) {
-    Bounds part;
-    part.low = all.low + cell * Vec3d{double(i % n), double(i / n % n), double(i / n / n)};
-    part.high = part.low + cell;
-    vm::Box box = box_of(o);
-    set_positions(box, part, o.transform);
+  std::vector<float> values = over_cells(o, [&](const vm::Box& box) {
     vm::Enclosure e;
-    if (entry.function) e = machine.run(*entry.function, box);
-    met.push_back(emits);
+    if (d.pass.function) e = machine.run(*d.pass.function, box);
+    met.push_back(false);
     const auto most = [&](const vm::ValueSource& v) {
-      const Interval r =
-          v.constant ? vm::interval_of(program.constants[v.index]) : e.results[v.index];
+      const Interval r = enclosed(program, v, e);
       met.back() = met.back() || !r.has_number();  // to be told
       return std::max(r.hi, 0.0);                  // negative coefficients count as 0
     };
-    const double found = most(entry.scattering) + most(entry.absorption);
-    values.push_back(std::min(float(vm::float_above(found)), float(bound)));
-  }
+    const double found = most(d.pass.scattering) + most(d.pass.absorption);
+    return std::min(float(vm::float_above(found)), float(bound));
+  });
+  const Bounds all = bounds(o.shape);
   const float least = std::max(*std::max_element(values.begin(), values.end()) / 4,
                                float(kLeastCollisions / length(all.high - all.low)));
   for (std::size_t i = 0; i < values.size(); ++i)
     if (met[i]) values[i] = std::max(values[i], least);
-  return {all, n, std::move(values)};
+  return {all, kRateCells, std::move(values)};
+}
+
+RateGrid emission_rates_of(const vm::Program& program, const vm::Descriptor& d, const Object& o) {
+  vm::BoundsMachine machine(program);
+  float brightest = 0;
+  std::vector<float> values = over_cells(o, [&](const vm::Box& box) {
+    vm::Enclosure e;
+    if (d.emit.function) e = machine.run(*d.emit.function, box);
+    const Interval r = enclosed(program, d.emit.emission, e);
+    const float most = r.has_number() ? float(std::max(r.hi, 0.0)) : float(Interval::kInf);
+    if (std::isfinite(most)) brightest = std::max(brightest, most);
+    return most;
+  });
+  if (brightest == 0) brightest = 1;
+  double mean = 0;
+  for (float& v : values) mean += (v = std::min(v, brightest)) / double(values.size());
+  if (mean == 0) return {};
+  const Bounds all = bounds(o.shape);
+  const double diagonal = length(all.high - all.low);
+  for (float& v : values)
+    v = float(std::min(kLooks * v / mean * 2, kLooksOfCell * kRateCells) / diagonal);
+  return {all, kRateCells, std::move(values)};
 }
 
 double largest_height(const vm::Program& program, const vm::Descriptor& d, const Object& o) {

@@ -5,7 +5,7 @@
 /// What is certain of an object's script without running it at points: enclosures over the box
 /// around its shape (vm/bounds.h).
 
-#include "renderer/majorants.h"
+#include "renderer/rate_grid.h"
 #include "renderer/scene.h"
 #include "vm/bounds.h"
 
@@ -15,13 +15,17 @@ namespace mms::renderer {
 vm::Box box_of(const Object& o);
 
 /// The largest scattering + absorption of the volume `d` at any wavelength in each of
-/// kMajorantCells^3 parts of the box around `o`, and nowhere above `bound`. Infinite where none is
-/// found and `bound` is infinite. Light is found at collisions, and so are coefficients that are
-/// not a number: where the volume emits, and where it has no number at all, no cell has less than a
-/// quarter of the largest, nor less than makes four collisions along the diagonal.
-MajorantGrid majorants_of(const vm::Program& program, const vm::Descriptor& d, const Object& o,
-                          double bound, bool emits);
-inline constexpr int kMajorantCells = 16;
+/// kRateCells^3 parts of the box around `o`, and nowhere above `bound`. Infinite where none is
+/// found and `bound` is infinite. Coefficients that are not a number are found at collisions: where
+/// there is no number at all, no cell has less than a quarter of the largest, nor less than makes
+/// four collisions along the diagonal.
+RateGrid majorants_of(const vm::Program& program, const vm::Descriptor& d, const Object& o,
+                      double bound);
+inline constexpr int kRateCells = 16;
+
+/// Where flights through the volume `d` ask for its emission, in 1/m: in proportion to the largest
+/// at any wavelength in each part, a few times along the diagonal. No cells where it emits nothing.
+RateGrid emission_rates_of(const vm::Program& program, const vm::Descriptor& d, const Object& o);
 
 /// The largest `height` of the surface `d` anywhere on `o`, m: what its `bound` is where the author
 /// states none. Infinite where none is found.

@@ -123,6 +123,7 @@ void Flights::begin(Flight& f) {
   if (f.end != End::Flying) return;
   f.crossings = free_crossings_.back();
   free_crossings_.pop_back();
+  f.look = {-1, 0};
 }
 
 /// Each flight goes on to its end or to where a script has to be asked, and is answered.
@@ -221,14 +222,22 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
 
   if (need != Need::Crossing) {
     const vm::Descriptor& d = *world_.scene.volumes[requests[0].key].script;
-    scripts_.run(d, EntryKind::Shade, lanes_);
+    const CompiledDescriptor& c = world_.compiled.of(&d);
+    scripts_.run(d, need == Need::Emission ? EntryKind::Emit : EntryKind::Shade, lanes_);
     for (int i = 0; i < n; ++i) {
       Flight& f = flights[requests[i].flight];
-      const Coefficients c = coefficients(d, f, i, paths[f.path]);
-      if (need == Need::Collision)
-        collide(f, c, paths[f.path]);
-      else
-        add_even(f, c, paths[f.path]);
+      const PathView& path = paths[f.path];
+      if (need == Need::Emission) {
+        look(f, emission(d.emit, c.emit_emission, f, i, path), path);
+        continue;
+      }
+      Coefficients coefficients = removed(d, i, path);
+      if (need == Need::Collision) {
+        collide(f, coefficients, path);
+      } else {
+        coefficients.emission = emission(d.shade, c.shade_emission, f, i, path);
+        add_even(f, coefficients, path);
+      }
     }
     return;
   }

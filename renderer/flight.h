@@ -66,10 +66,12 @@ struct Flight {
   int beyond = -1;  ///< of a shadow ray that leaves a ball: what it goes on by, as its owner knows
   Media media;
   Carried carried;
-  int medium = -1;     ///< object whose volume is asked, or scattered it
-  float majorant = 0;  ///< at the tentative collision it has come to, 1/m
-  int known = 0;       ///< how many of the even volumes here have been asked
-  Coefficients even;   ///< the sum of those
+  int medium = -1;  ///< object whose volume is asked, or scattered it
+  float rate = 0;   ///< of such events as it has come to, where it is, 1/m
+  /// Where emission of the first of the volumes that vary is asked for next; before 0: not known.
+  RateGrid::Event look{-1, 0};
+  int known = 0;      ///< how many of the even volumes here have been asked
+  Coefficients even;  ///< the sum of those
   /// Of the even volumes the one that is to scatter, drawn by the hero's share, and what it does.
   int drawn = -1;
   Spectrumf drawn_scattering;
@@ -81,6 +83,7 @@ struct Flight {
 
   /// In other media from here on.
   void forget_media() {
+    look = {-1, 0};
     known = 0;
     even = {};
     drawn = -1;
@@ -115,7 +118,7 @@ class Flights {
   const FlightCounters& counters() const { return counters_; }
 
  private:
-  enum class Need : std::uint8_t { Nothing, Coefficients, Collision, Crossing };
+  enum class Need : std::uint8_t { Nothing, Coefficients, Collision, Emission, Crossing };
   struct Request {
     int flight;
     Need need;
@@ -131,10 +134,14 @@ class Flights {
               std::span<const Request> requests);
   bool along_media(Flight& f, float to, const PathView& path, Need& need);
   Spectrumf answered(const vm::ValueSource& v, int lane, const PathView& path) const;
-  Coefficients coefficients(const vm::Descriptor& d, const Flight& f, int lane,
-                            const PathView& path);
+  Coefficients removed(const vm::Descriptor& d, int lane, const PathView& path);
+  Spectrumf emission(const vm::Entry& entry, const materials::Layout& shape, const Flight& f,
+                     int lane, const PathView& path);
   void add_even(Flight& f, const Coefficients& c, const PathView& path);
   void collide(Flight& f, const Coefficients& c, const PathView& path);
+  void find_emission(Flight& f, const Filling& filling, float to, double& end, Need& need,
+                     const PathView& path);
+  void look(const Flight& f, const Spectrumf& emission, const PathView& path);
   void pass_false_surface(Flight& f, const Hit& hit);
   void cross(Flight& f, const ScriptPoint& point, const Spectrumf& scattering,
              const Spectrumf& absorption, const PathView& path);

@@ -36,24 +36,52 @@ bool Flights::along_media(Flight& f, float to, const PathView& path, Need& need)
     need = Need::Coefficients;
     return false;
   }
+  const Vec3d origin(f.origin), direction(f.direction);
   double end = to;
   for (int i = 0; i < filling.varied_count; ++i) {
     const int object = filling.varied[i];
     const double depth = -std::log1p(-random(f, path));
-    const MajorantGrid::Collision c =
-        world_.majorants[object].collide(Vec3d(f.origin), Vec3d(f.direction), f.t, end, depth);
+    const RateGrid::Event c = world_.majorants[object].next(origin, direction, f.t, end, depth);
     if (!(c.t < end)) continue;  // never where the medium is empty
     end = c.t;
     f.medium = object;
-    f.majorant = c.majorant;
+    f.rate = c.rate;
     need = Need::Collision;
   }
+  if (f.errand == Errand::Path) find_emission(f, filling, to, end, need, path);
   if (filling.even_count > 0 && through_even(f, float(end) - f.t, path)) {
     need = Need::Nothing;
     return false;
   }
   f.t = float(end);
+  if (need == Need::Emission && f.look.t == end)
+    f.look = world_.emission_rates[f.medium].next(origin, direction, end, to, 1);
   return need == Need::Nothing;
+}
+
+/// Where emission is asked for, if before `end`, which then is there. In the first of the volumes
+/// that emit that is at even steps of its rate, which is less noise than independent places make;
+/// in others, of which flights keep nothing, at such.
+void Flights::find_emission(Flight& f, const Filling& filling, float to, double& end, Need& need,
+                            const PathView& path) {
+  bool first = true;
+  for (int i = 0; i < filling.varied_count; ++i) {
+    const int object = filling.varied[i];
+    const RateGrid& rates = world_.emission_rates[object];
+    if (rates.empty()) continue;
+    RateGrid::Event e = f.look;
+    if (!first || e.t < 0) {
+      const double u = random(f, path);
+      e = rates.next(Vec3d(f.origin), Vec3d(f.direction), f.t, to, first ? u : -std::log1p(-u));
+      if (first) f.look = e;
+    }
+    first = false;
+    if (!(e.t < end)) continue;
+    end = e.t;
+    f.medium = object;
+    f.rate = e.rate;
+    need = Need::Emission;
+  }
 }
 
 /// A stretch of even volumes in closed form; true if the flight ended in it. Where to scatter
@@ -97,22 +125,24 @@ bool Flights::through_even(Flight& f, float length, const PathView& path) {
   return f.end != End::Flying;
 }
 
-/// What the last run says of a volume, for a lane: nothing where it gave up.
-Coefficients Flights::coefficients(const vm::Descriptor& d, const Flight& f, int lane,
-                                   const PathView& path) {
+/// What the last run says that a volume does to light, for a lane: nothing where it gave up.
+Coefficients Flights::removed(const vm::Descriptor& d, int lane, const PathView& path) {
   if (scripts_.given_up(lane)) return {};
-  Coefficients c{not_negative(answered(d.shade.scattering, lane, path)),
-                 not_negative(answered(d.shade.absorption, lane, path)),
-                 not_negative(answered(d.shade.emission, lane, path))};
-  const CompiledDescriptor& volume = world_.compiled.of(&d);
-  if (volume.emits) {
-    // The shape of emission in a volume is a phase function, 1 for the isotropic one.
-    params_.resize(std::max(1, volume.shade_emission.param_count()));
-    scripts_.params(d.shade.emission_material, lane, params_.data());
-    c.emission *=
-        materials::volume_emission_shape(volume.shade_emission, params_.data(), -f.direction);
-  }
-  return c;
+  return {not_negative(answered(d.shade.scattering, lane, path)),
+          not_negative(answered(d.shade.absorption, lane, path)),
+          {}};
+}
+
+/// What it says of emission towards where a flight came from. Its shape in a volume is a phase
+/// function, 1 for the isotropic one.
+Spectrumf Flights::emission(const vm::Entry& entry, const materials::Layout& shape, const Flight& f,
+                            int lane, const PathView& path) {
+  if (scripts_.given_up(lane)) return {};
+  const Spectrumf emitted = not_negative(answered(entry.emission, lane, path));
+  if (emitted.is_black()) return emitted;
+  params_.resize(std::max(1, shape.param_count()));
+  scripts_.params(entry.emission_material, lane, params_.data());
+  return emitted * materials::volume_emission_shape(shape, params_.data(), -f.direction);
 }
 
 /// One more of the even volumes around a flight. Which of them is to scatter is drawn as they come:
@@ -136,7 +166,7 @@ void Flights::add_even(Flight& f, const Coefficients& c, const PathView& path) {
 void Flights::collide(Flight& f, const Coefficients& c, const PathView& path) {
   ++counters_.media_steps;
   ++counters_.medium_samples;
-  const float majorant = f.majorant;
+  const float majorant = f.rate;
   bool denser = false;
   Spectrumf scattered, nothing;  // probabilities, per wavelength; what is left is absorbed
   for (int k = 0; k < kWavelengths; ++k) {
@@ -156,9 +186,6 @@ void Flights::collide(Flight& f, const Coefficients& c, const PathView& path) {
     if (f.carried.beta.is_black()) f.end = End::Lost;
     return;
   }
-  if (!c.emission.is_black())
-    *path.radiance += f.carried.weighted(Technique::Scattering, 0, world_.estimator) * c.emission *
-                      (1 / majorant);
   if (random(f, path) < scattered[0]) {
     f.carried.happened(scattered, scattered);
     if (f.known > 1) f.forget_media();
@@ -168,6 +195,12 @@ void Flights::collide(Flight& f, const Coefficients& c, const PathView& path) {
     if (f.carried.beta.is_black()) f.end = End::Lost;
   }
   f.carried.rescale();
+}
+
+/// Light of a volume that varies, from where a flight asked for it.
+void Flights::look(const Flight& f, const Spectrumf& emission, const PathView& path) {
+  *path.radiance +=
+      f.carried.weighted(Technique::Scattering, 0, world_.estimator) * emission * (1 / f.rate);
 }
 
 }  // namespace mms::renderer

@@ -104,9 +104,10 @@ class Probe {
   Result<Findings> run() {
     Findings findings;
     for (const Object& o : scene_.objects) {
-      Result<MajorantGrid> grid = majorants(o);
+      Result<RateGrid> grid = majorants(o);
       if (!grid) return grid.error();
       findings.majorants.push_back(std::move(*grid));
+      findings.emission_rates.push_back(emission_rates(o));
       findings.radiance.push_back(radiance_of(o));
       if (o.volume >= 0)
         run_all(*scene_.volumes[o.volume].script, EntryKind::Shade, points_of(o, true, cluster_),
@@ -117,13 +118,13 @@ class Probe {
   }
 
  private:
-  Result<MajorantGrid> majorants(const Object& o) const {
-    if (o.volume < 0) return MajorantGrid();
+  Result<RateGrid> majorants(const Object& o) const {
+    if (o.volume < 0) return RateGrid();
     const vm::Descriptor& d = *scene_.volumes[o.volume].script;
     const CompiledDescriptor& c = compiled_.of(&d);
-    if (c.homogeneous) return MajorantGrid();
-    MajorantGrid grid = majorants_of(compiled_.program(), d, o,
-                                     c.majorant > 0 ? c.majorant : vm::Interval::kInf, c.emits);
+    if (c.homogeneous) return RateGrid();
+    RateGrid grid =
+        majorants_of(compiled_.program(), d, o, c.majorant > 0 ? c.majorant : vm::Interval::kInf);
     if (std::isfinite(grid.largest())) return grid;
     return Error{
         place(compiled_.program(), d.line.source, d.line.line),
@@ -131,6 +132,14 @@ class Probe {
                     d.name),
         "add `bound = ...`: the largest scattering + absorption anywhere in it, in 1/m; "
         "`mms bounds` shows what is known"};
+  }
+
+  RateGrid emission_rates(const Object& o) const {
+    if (o.volume < 0) return {};
+    const vm::Descriptor& d = *scene_.volumes[o.volume].script;
+    const CompiledDescriptor& c = compiled_.of(&d);
+    if (c.homogeneous || !c.emits) return {};
+    return emission_rates_of(compiled_.program(), d, o);
   }
 
   template <class F>

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "renderer/majorants.h"
+#include "renderer/rate_grid.h"
 #include "renderer/scripts.h"
 
 namespace mms::renderer {
@@ -18,7 +18,8 @@ struct Findings {
   std::vector<double> radiance;  ///< mean luminance of each object's surface; 0 is no emitter
   /// Largest extinction of each object's volume where it varies from place to place, in parts: as
   /// found by enclosure, and nowhere above what is stated; empty for other objects.
-  std::vector<MajorantGrid> majorants;
+  std::vector<RateGrid> majorants;
+  std::vector<RateGrid> emission_rates;  ///< of such volumes that emit: renderer/enclosure.h
 };
 
 /// Runs the scripts at kProbePoints points. Errors: a script that exceeds its budget; a volume that

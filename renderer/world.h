@@ -8,8 +8,8 @@
 #include "renderer/camera.h"
 #include "renderer/lamp_images.h"
 #include "renderer/lights.h"
-#include "renderer/majorants.h"
 #include "renderer/media.h"
+#include "renderer/rate_grid.h"
 #include "renderer/scripts.h"
 #include "renderer/switches.h"
 
@@ -31,7 +31,8 @@ struct World {
   bool each_light = false;
   std::uint64_t seed = 0;
   int max_depth = 0;
-  std::vector<MajorantGrid> majorants;  ///< of each object's volume, if it varies: Findings
+  /// Of each object's volume, if it varies: Findings.
+  std::vector<RateGrid> majorants, emission_rates;
   Estimator estimator = Estimator::Clustered;
   Generator generator = Generator::Niederreiter;
   std::vector<PolishedBall> balls;       ///< by way of which lights are reached

@@ -128,7 +128,7 @@ TEST_CASE("enclosures of an object's script hold over its own box") {
   CHECK(height >= 0.6);
   CHECK(height < 0.601);
   const double extinction =
-      majorants_of(p, *p.find(vm::DescriptorForm::Volume, "a"), o, 1e30, false).largest();
+      majorants_of(p, *p.find(vm::DescriptorForm::Volume, "a"), o, 1e30).largest();
   CHECK(extinction >= 4);
   CHECK(extinction < 4.01);
 }

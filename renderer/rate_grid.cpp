@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "renderer/majorants.h"
+#include "renderer/rate_grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,17 +7,17 @@
 
 namespace mms::renderer {
 
-MajorantGrid::MajorantGrid(const Bounds& box, int cells, std::vector<float> values)
+RateGrid::RateGrid(const Bounds& box, int cells, std::vector<float> values)
     : box_(box),
       cell_((box.high - box.low) / double(cells)),
       cells_(cells),
       values_(std::move(values)) {}
 
-float MajorantGrid::largest() const {
+float RateGrid::largest() const {
   return values_.empty() ? 0 : *std::max_element(values_.begin(), values_.end());
 }
 
-std::array<int, 3> MajorantGrid::cell_of(Vec3d p) const {
+std::array<int, 3> RateGrid::cell_of(Vec3d p) const {
   std::array<int, 3> cell{};
   for (int k = 0; k < 3; ++k) {
     const double x = cell_[k] > 0 ? (p[k] - box_.low[k]) / cell_[k] : 0;
@@ -26,33 +26,32 @@ std::array<int, 3> MajorantGrid::cell_of(Vec3d p) const {
   return cell;
 }
 
-float MajorantGrid::at(Vec3d p) const { return value(cell_of(p)); }
+float RateGrid::at(Vec3d p) const { return value(cell_of(p)); }
 
 /// Amanatides and Woo 1987: from plane to plane, the nearest of three next.
-MajorantGrid::Collision MajorantGrid::collide(Vec3d o, Vec3d d, double from, double to,
-                                              double depth) const {
+RateGrid::Event RateGrid::next(Vec3d o, Vec3d d, double from, double to, double depth) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::array<int, 3> cell = cell_of(o + d * from);
   const auto plane = [&](int k) {  // where the ray leaves its cell along one axis
     if (d[k] == 0 || cell[k] < 0 || cell[k] >= cells_) return kInfinity;
     return (box_.low[k] + cell_[k] * (cell[k] + (d[k] > 0 ? 1 : 0)) - o[k]) / d[k];
   };
-  double next[3] = {plane(0), plane(1), plane(2)};
+  double planes[3] = {plane(0), plane(1), plane(2)};
   for (double t = from;;) {
-    const int axis = int(std::min_element(next, next + 3) - next);
-    const double end = std::clamp(next[axis], t, to);  // rounding may put the plane behind
-    const float majorant = value(cell);
-    const double over = double(majorant) * (end - t);
-    if (over > depth) return {std::min(t + depth / majorant, end), majorant};
+    const int axis = int(std::min_element(planes, planes + 3) - planes);
+    const double end = std::clamp(planes[axis], t, to);  // rounding may put the plane behind
+    const float rate = value(cell);
+    const double over = double(rate) * (end - t);
+    if (over > depth) return {std::min(t + depth / rate, end), rate};
     if (!(end < to)) return {kInfinity, 0};
     depth -= over;
     t = end;
     const int step = d[axis] > 0 ? 1 : -1;
     if (cell[axis] + step < 0 || cell[axis] + step >= cells_) {
-      next[axis] = kInfinity;  // beyond the box as in its last cell
+      planes[axis] = kInfinity;  // beyond the box as in its last cell
     } else {
       cell[axis] += step;
-      next[axis] = plane(axis);
+      planes[axis] = plane(axis);
     }
   }
 }
