@@ -155,7 +155,7 @@ bool Flights::open(Vec3f from, Vec3f to) {
 /// Finds what lies on the ray beyond distance `from`.
 void Flights::trace(Flight& f, Crossings& crossings, float from) {
   const bool shadow = f.errand == Errand::Shadow;
-  if (from == 0) ++(shadow ? counters_.shadow_rays : counters_.rays);
+  if (from == 0) ++(f.errand == Errand::Path ? counters_.rays : counters_.shadow_rays);
   if (shadow && world_.plain) {
     f.end = world_.accel.occluded(f.origin, f.direction, f.t_max) ? End::Lost : End::Free;
     return;
@@ -193,7 +193,7 @@ Flights::Need Flights::advance(Flight& f, Crossings& crossings, const PathView& 
       f.end = f.errand == Errand::Path ? End::Surface : End::Lost;
       return Need::Nothing;
     }
-    f.end = f.hit.object >= 0 ? End::Surface : End::Free;
+    f.end = f.hit.object < 0 ? End::Free : f.errand == Errand::Path ? End::Surface : End::Lost;
     return Need::Nothing;
   }
 }
@@ -228,7 +228,7 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
       Flight& f = flights[requests[i].flight];
       const PathView& path = paths[f.path];
       if (need == Need::Emission) {
-        look(f, emission(d.emit, c.emit_emission, f, i, path), path);
+        see(f, emission(d.emit, c.emit_emission, f, i, path) * (1 / f.rate), path);
         continue;
       }
       Coefficients coefficients = removed(d, i, path);
@@ -291,7 +291,7 @@ void Flights::cross(Flight& f, const ScriptPoint& point, const Spectrumf& scatte
   for (int k = 0; k < kWavelengths; ++k) p_through[k] = either[k] > 0 ? through[k] / either[k] : 0;
   const Hit& hit = crossings_[f.crossings].hits[f.next];
   const bool inwards = dot(point.surface.geometric_normal, point.view) > 0;
-  if (f.errand == Errand::Shadow) {
+  if (f.errand != Errand::Path) {
     f.carried.beta *= through;
     f.carried.pdf *= p_through;
     if (f.carried.beta.is_black()) {

@@ -34,7 +34,11 @@ struct Carried {
   Spectrumf weighted(Technique by, double light_density, Estimator estimator) const;
 };
 
-enum class Errand : std::uint8_t { Path, Shadow };
+enum class Errand : std::uint8_t {
+  Path,
+  Shadow,  ///< to light that is known
+  Gather,  ///< of what volumes emit on the way
+};
 enum class End : std::uint8_t {
   Flying,
   Surface,  ///< of a path: to be shaded at `hit`
@@ -62,7 +66,8 @@ struct Flight {
   int next = 0;                ///< crossing to come
   std::uint32_t step = 0;      ///< counts its random numbers
   std::uint32_t stream = 0;    ///< tells them from those of other flights of the path
-  double light_density = 0;    ///< of a shadow ray: with which its light was drawn, 1/sr
+  double light_density = 0;    ///< of a ray for light: with which that was drawn, 1/sr
+  bool glows_drawn = false;    ///< of a path: where it left, World::glows were drawn too
   int beyond = -1;  ///< of a shadow ray that leaves a ball: what it goes on by, as its owner knows
   Media media;
   Carried carried;
@@ -95,6 +100,7 @@ struct PathView {
   const Cluster* cluster;
   const Sampler* sampler;
   Spectrumf* radiance;  ///< where light met on the way is added
+  Spectrumf* gathered;  ///< that of flights on that errand
   double cone;          ///< width of the pixel for each metre of ray
 };
 
@@ -141,7 +147,7 @@ class Flights {
   void collide(Flight& f, const Coefficients& c, const PathView& path);
   void find_emission(Flight& f, const Filling& filling, float to, double& end, Need& need,
                      const PathView& path);
-  void look(const Flight& f, const Spectrumf& emission, const PathView& path);
+  void see(const Flight& f, const Spectrumf& light, const PathView& path);
   void pass_false_surface(Flight& f, const Hit& hit);
   void cross(Flight& f, const ScriptPoint& point, const Spectrumf& scattering,
              const Spectrumf& absorption, const PathView& path);

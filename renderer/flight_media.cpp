@@ -48,7 +48,7 @@ bool Flights::along_media(Flight& f, float to, const PathView& path, Need& need)
     f.rate = c.rate;
     need = Need::Collision;
   }
-  if (f.errand == Errand::Path) find_emission(f, filling, to, end, need, path);
+  if (f.errand != Errand::Shadow) find_emission(f, filling, to, end, need, path);
   if (filling.even_count > 0 && through_even(f, float(end) - f.t, path)) {
     need = Need::Nothing;
     return false;
@@ -91,20 +91,19 @@ bool Flights::through_even(Flight& f, float length, const PathView& path) {
   ++counters_.media_steps;
   const Spectrumf& scattering = f.even.scattering;
   const Spectrumf extinction = scattering + f.even.absorption;
-  if (f.errand == Errand::Shadow) {
+  if (f.errand != Errand::Shadow && !f.even.emission.is_black()) {
+    Spectrumf optical;  // integral of the transmittance over the stretch
+    for (int k = 0; k < kWavelengths; ++k)
+      optical[k] =
+          extinction[k] > 0 ? -std::expm1(-extinction[k] * length) / extinction[k] : length;
+    see(f, f.even.emission * optical, path);
+  }
+  if (f.errand != Errand::Path) {
     // A path would have had to decide not to scatter, with this very probability.
     f.carried.beta *= transmittance(extinction, length);
     f.carried.pdf *= transmittance(scattering, length);
     if (f.carried.beta.is_black()) f.end = End::Lost;
     return f.end != End::Flying;
-  }
-  if (!f.even.emission.is_black()) {
-    Spectrumf optical;  // integral of the transmittance over the stretch
-    for (int k = 0; k < kWavelengths; ++k)
-      optical[k] =
-          extinction[k] > 0 ? -std::expm1(-extinction[k] * length) / extinction[k] : length;
-    *path.radiance +=
-        f.carried.weighted(Technique::Scattering, 0, world_.estimator) * f.even.emission * optical;
   }
   const float hero = scattering[0];
   const float s = hero > 0 ? -std::log1p(-random(f, path)) / hero : kInfinity;
@@ -180,7 +179,7 @@ void Flights::collide(Flight& f, const Coefficients& c, const PathView& path) {
   counters_.denser_samples += denser;
   // As in an even medium a path decides on scattering alone, and absorption dims it.
   const Spectrumf p_on = Spectrumf(1.0f) - scattered;
-  if (f.errand == Errand::Shadow) {
+  if (f.errand != Errand::Path) {
     f.carried.beta *= nothing;
     f.carried.pdf *= p_on;
     if (f.carried.beta.is_black()) f.end = End::Lost;
@@ -197,10 +196,15 @@ void Flights::collide(Flight& f, const Coefficients& c, const PathView& path) {
   f.carried.rescale();
 }
 
-/// Light of a volume that varies, from where a flight asked for it.
-void Flights::look(const Flight& f, const Spectrumf& emission, const PathView& path) {
-  *path.radiance +=
-      f.carried.weighted(Technique::Scattering, 0, world_.estimator) * emission * (1 / f.rate);
+/// Adds light that a volume sends towards where a flight came from.
+void Flights::see(const Flight& f, const Spectrumf& light, const PathView& path) {
+  const bool gathers = f.errand == Errand::Gather;
+  const double density = gathers         ? f.light_density
+                         : f.glows_drawn ? world_.glows.pdf(Vec3d(f.origin), Vec3d(f.direction))
+                                         : 0;
+  const Technique by = gathers ? Technique::Light : Technique::Scattering;
+  (gathers ? *path.gathered : *path.radiance) +=
+      f.carried.weighted(by, density, world_.estimator) * light;
 }
 
 }  // namespace mms::renderer

@@ -103,9 +103,9 @@ void Integrator::trace(std::span<const PixelSample> samples, std::span<FilmSampl
   for (std::size_t i = paths_.size(); i-- > 0;) {
     const Path& p = paths_[i];
     if (p.parent >= 0)
-      paths_[p.parent].lit += p.radiance + p.lit;
+      paths_[p.parent].lit += p.light();
     else
-      stream[p.sample].xyz = p.cluster.xyz(p.radiance + p.lit);
+      stream[p.sample].xyz = p.cluster.xyz(p.light());
   }
 }
 
@@ -118,7 +118,7 @@ void Integrator::make_room(std::size_t more) {
 }
 
 PathView Integrator::view(Path& p) const {
-  return {&p.cluster, &p.sampler, &p.radiance, world_.camera.pixel_angle()};
+  return {&p.cluster, &p.sampler, &p.radiance, &p.gathered, world_.camera.pixel_angle()};
 }
 
 /// Draws wavelengths and the camera ray of a new path.
@@ -138,18 +138,12 @@ void Integrator::start(const PixelSample& s, int sample, FilmSample& point) {
   now_.push_back(camera_flight(world_, i, p.sampler, point.x, point.y));
 }
 
-/// Adds what a shadow ray found.
-void Integrator::receive(const Flight& f) {
-  if (f.end != End::Free) return;
-  paths_[f.path].lit += f.carried.weighted(Technique::Light, f.light_density, world_.estimator);
-}
-
 /// Adds what shadow rays found and what the environment sends along rays that left the scene, and
 /// orders the rest by what has to be run for them. What is not done stays for the next time.
 void Integrator::gather() {
   for (const Flight& f : now_) {
-    if (f.errand != Errand::Shadow || f.end == End::Flying || go_beyond(f)) continue;
-    paths_[f.path].asks = false;
+    if (f.errand == Errand::Path || f.end == End::Flying || go_beyond(f)) continue;
+    --paths_[f.path].asks;
     receive(f);
   }
   vertices_.clear();
@@ -157,7 +151,7 @@ void Integrator::gather() {
   for (const Flight& f : now_) {
     Path& p = paths_[f.path];
     const bool vertex = f.end == End::Surface || f.end == End::Medium;
-    if (f.end == End::Flying || (vertex && p.asks)) {
+    if (f.end == End::Flying || (vertex && p.asks > 0)) {
       next_.push_back(f);
     } else if (vertex) {
       const int kind = f.end == End::Medium ? int(world_.scene.surfaces.size()) +
@@ -277,6 +271,7 @@ void Integrator::scatter(const Vertex& v, Scatterer s) {
       if (images->chance() > 0) s.images = &*images;
     }
     if (world_.lights.any()) connect(v, s, draws);
+    if (world_.glows.any()) connect_to_glows(v, s);
   }
   go_on(v, s, draws);
   if (s.images) go_to_image(v, s, draws);
@@ -330,7 +325,7 @@ int Integrator::divide(int path) {
   Path& p = paths_.emplace_back(paths_[path]);
   p.parent = path;
   p.sampler = p.sampler.branch(p.depth);
-  p.radiance = p.lit = Spectrumf(0.0f);
+  p.radiance = p.lit = p.gathered = Spectrumf(0.0f);
   views_.push_back(view(p));
   return int(paths_.size()) - 1;
 }
@@ -359,107 +354,13 @@ Flight* Integrator::leave(const Vertex& v, const Scatterer& s, const Sampled& sa
   f.receives = s.receives(v.point);
   f.end = End::Flying;
   f.emission_seen = false;
+  f.glows_drawn = detour.ball < 0;
   f.t = 0;
   f.t_max = std::numeric_limits<float>::infinity();
   f.step = 0;
   f.stream = 2 * std::uint32_t(paths_[path].depth);
   next_.push_back(f);
   return &next_.back();
-}
-
-/// Draws light for a vertex.
-void Integrator::connect(const Vertex& v, const Scatterer& s, int draws) {
-  const Path& p = paths_[v.from->path];
-  const Vec3d from = v.point.surface.position;
-  const int bounce = p.depth - 1, pair = pair_of_bounce(bounce, kLight);
-  const Receiver receiver(from, s.receives(v.point));
-  if (draws == 0) {
-    const auto [light_u, light_v] = p.sampler.pair(pair);
-    connect(v, s, world_.lights.sample(receiver, light_u, light_v));
-    return;
-  }
-  for (int i = 0; i < world_.lights.count(); ++i) {
-    if (world_.lights.below_horizon(i, receiver)) continue;
-    for (int draw = 0; draw < draws; ++draw) {
-      const auto [light_u, light_v] =
-          p.sampler.pair(i == 0 ? pair : pair_of_light(bounce, i), draw, draws);
-      LightSample light = world_.lights.sample_one(i, receiver, light_u, light_v);
-      light.pdf *= draws;
-      connect(v, s, light);
-    }
-  }
-}
-
-/// Makes the shadow rays to a point of a light: straight, and by way of balls.
-void Integrator::connect(const Vertex& v, const Scatterer& s, const LightSample& light) {
-  if (!(light.pdf > 0)) return;
-  for (int ball = 0; ball < int(world_.balls.size()); ++ball) connect_by(ball, v, s, light);
-  Flight f = *v.from;
-  if (!s.medium) follow(f, v, light.direction);
-  if (world_.sealed_in(f.media)) return;
-  const Sampled towards = s.evaluate(v.point, light.direction);
-  if (towards.f.is_black()) return;
-  const Vec3f origin =
-      s.medium ? Vec3f(v.point.surface.position) : ray_origin(v.point.surface, light.direction);
-  send_to_light(f, v, towards, light, origin);
-}
-
-/// Makes the shadow ray of a vertex to a point of a light; thesis (4.15). `f`: the flight that came
-/// there. It leaves `origin`, which is elsewhere where light goes by way of something.
-void Integrator::send_to_light(Flight& f, const Vertex& v, const Sampled& towards,
-                               const LightSample& light, Vec3f origin) {
-  const Path& p = paths_[v.from->path];
-  f.carried.beta *= towards.f;
-  f.carried.light_pdf = f.carried.pdf;
-  f.carried.pdf *= towards.pdf;
-  bool scripted = false;
-  if (light.object == kEnvironment) {
-    f.carried.beta *= world_.lights.environment(light.direction, p.cluster);
-  } else {
-    const Surface& surface = world_.surface_of_object(light.object);
-    scripted = surface.script;
-    if (!scripted)
-      f.carried.beta *= fixed_emission(surface.fixed, light.surface, -light.direction, p.cluster);
-  }
-  if (f.carried.beta.is_black()) return;
-  f.origin = origin;
-  f.t_max = std::numeric_limits<float>::infinity();
-  Vec3d direction = light.direction;
-  if (light.object != kEnvironment) {
-    // Both ends are moved off their surfaces, so the ray ends before it meets the light.
-    const Vec3d to = Vec3d(ray_origin(light.surface, -light.direction)) - Vec3d(f.origin);
-    const double distance = length(to);
-    if (!(distance > 0)) return;
-    direction = to / distance;
-    f.t_max = float(distance);
-  }
-  f.direction = Vec3f(direction);
-  f.errand = Errand::Shadow;
-  f.end = End::Flying;
-  f.t = 0;
-  f.step = 0;
-  f.stream = 2 * std::uint32_t(p.depth) + 1;
-  f.light_density = light.pdf;
-  if (scripted) connections_.push_back({int(shadows_.size()), light});
-  shadows_.push_back(f);
-}
-
-void Integrator::send_shadow_rays() {
-  if (world_.plain) {
-    for (Flight& f : shadows_)
-      if (f.carried.beta.is_black()) f.end = End::Lost;
-    flights_.fly(shadows_, views_);
-    for (const Flight& f : shadows_) receive(f);
-    return;
-  }
-  for (const Flight& f : shadows_) {
-    if (f.carried.beta.is_black()) {
-      if (f.beyond >= 0) free_beyond_.push_back(f.beyond);
-      continue;
-    }
-    paths_[f.path].asks = true;
-    next_.push_back(f);
-  }
 }
 
 /// Russian roulette by the mean contribution that the path still carries. It is the same whatever

@@ -51,7 +51,8 @@ class Integrator {
     float first_part = 0;   ///< drawn with the place on the film
     Spectrumf radiance;     ///< that the path has met
     Spectrumf lit;          ///< that shadow rays have found
-    bool asks = false;      ///< a shadow ray is on its way: the next vertex waits for it, so that
+    Spectrumf gathered;     ///< likewise, of what volumes emit
+    int asks = 0;           ///< such rays on their way: the next vertex waits for them, so that
                             ///< sums are made in one order
     float travelled = 0;    ///< m
     int depth = 0;          ///< scattering events so far
@@ -61,6 +62,8 @@ class Integrator {
     bool by_image = false;  ///< was sent to where a ball shows a lamp
     Detour detour;
     std::uint32_t choices = 0;  ///< counts its numbers for which rays by a ball are sought
+
+    Spectrumf light() const { return radiance + lit + gathered; }
   };
   /// A point of a path where it is scattered.
   struct Vertex {
@@ -107,6 +110,8 @@ class Integrator {
   void connect(const Vertex& v, const Scatterer& s, int draws);
   void connect(const Vertex& v, const Scatterer& s, const LightSample& light);
   void connect_by(int ball, const Vertex& v, const Scatterer& s, const LightSample& light);
+  void connect_to_glows(const Vertex& v, const Scatterer& s);
+  void start_for_light(Flight& f, Errand errand) const;
   void send_to_light(Flight& f, const Vertex& v, const Sampled& towards, const LightSample& light,
                      Vec3f origin);
   Detour next_detour(const Vertex& v, const Sampled& sampled) const;

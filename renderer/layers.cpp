@@ -89,7 +89,8 @@ class Gaze {
       l.sampler = Sampler(world_.seed, x, y, std::uint64_t(i % samples_));
       const std::array<float, 4> u = l.sampler.first();
       l.cluster = sample_cluster(u[kWavelength]);
-      views_.push_back({&l.cluster, &l.sampler, &l.radiance, world_.camera.pixel_angle()});
+      views_.push_back(
+          {&l.cluster, &l.sampler, &l.radiance, &l.radiance, world_.camera.pixel_angle()});
       rays_.push_back(
           camera_flight(world_, i, l.sampler, x + double(u[kFilmX]), y + double(u[kFilmY])));
     }

@@ -109,9 +109,12 @@ class Probe {
       findings.majorants.push_back(std::move(*grid));
       findings.emission_rates.push_back(emission_rates(o));
       findings.radiance.push_back(radiance_of(o));
-      if (o.volume >= 0)
-        run_all(*scene_.volumes[o.volume].script, EntryKind::Shade, points_of(o, true, cluster_),
-                None{});
+      if (o.volume >= 0) {
+        const vm::Descriptor& d = *scene_.volumes[o.volume].script;
+        run_all(d, EntryKind::Shade, points_of(o, true, cluster_), None{});
+        if (compiled_.of(&d).emits)
+          findings.glows.push_back(glow_of(o, findings.emission_rates.back()));
+      }
       if (scripts_.fault_lanes() > 0) return fault();
     }
     return findings;
@@ -175,6 +178,22 @@ class Probe {
     });
     // Too small to matter is still an emitter.
     return std::isfinite(sum) ? std::max(sum / kProbePoints, 1e-6) : 1.0;
+  }
+
+  /// The volume of an object, which emits, at `rates` if that varies.
+  Glow glow_of(const Object& o, const RateGrid& rates) {
+    const vm::Descriptor& d = *scene_.volumes[o.volume].script;
+    double sum = 0;
+    run_all(d, EntryKind::Emit, points_of(o, true, cluster_), [&](const ScriptPoint&, int lane) {
+      sum += std::max(0.0, cluster_.xyz(scripts_.spectrum(d.emit.emission, lane))[1]);
+    });
+    const Bounds box = rates.empty() ? bounds(o.shape) : rates.support();
+    Glow glow{(box.low + box.high) * 0.5, length(box.high - box.low) / 2, 1};
+    if (const Sphere* s = std::get_if<Sphere>(&o.shape); s && s->radius < glow.radius)
+      glow.centre = s->centre, glow.radius = s->radius;
+    // Too little to matter is still light.
+    if (std::isfinite(sum)) glow.radiance = std::max(sum / kProbePoints, 1e-6) * glow.radius;
+    return glow;
   }
 
   Error fault() const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "renderer/glows.h"
 #include "renderer/rate_grid.h"
 #include "renderer/scripts.h"
 
@@ -20,6 +21,7 @@ struct Findings {
   /// found by enclosure, and nowhere above what is stated; empty for other objects.
   std::vector<RateGrid> majorants;
   std::vector<RateGrid> emission_rates;  ///< of such volumes that emit: renderer/enclosure.h
+  std::vector<Glow> glows;               ///< volumes that emit
 };
 
 /// Runs the scripts at kProbePoints points. Errors: a script that exceeds its budget; a volume that

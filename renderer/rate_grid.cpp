@@ -17,6 +17,18 @@ float RateGrid::largest() const {
   return values_.empty() ? 0 : *std::max_element(values_.begin(), values_.end());
 }
 
+Bounds RateGrid::support() const {
+  Bounds all;
+  for (int i = 0; i < int(values_.size()); ++i) {
+    if (!(values_[i] > 0)) continue;
+    const Vec3d low = box_.low + cell_ * Vec3d{double(i % cells_), double(i / cells_ % cells_),
+                                               double(i / cells_ / cells_)};
+    all.add(low);
+    all.add(low + cell_);
+  }
+  return all;
+}
+
 std::array<int, 3> RateGrid::cell_of(Vec3d p) const {
   std::array<int, 3> cell{};
   for (int k = 0; k < 3; ++k) {

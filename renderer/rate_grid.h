@@ -18,7 +18,8 @@ class RateGrid {
   RateGrid(const Bounds& box, int cells, std::vector<float> values);
 
   bool empty() const { return values_.empty(); }
-  float largest() const;  ///< 0 of a grid without cells
+  float largest() const;   ///< 0 of a grid without cells
+  Bounds support() const;  ///< of the cells that are not 0
   /// In the cell of `p`, or in the nearest one.
   float at(Vec3d p) const;
 

@@ -117,9 +117,9 @@ struct FaultCount {
 
 /// What a render did. Counters are totals over all threads.
 struct Report {
-  int samples = 0;     ///< samples a pixel actually done (the smallest over the image)
+  int samples = 0;          ///< samples a pixel actually done (the smallest over the image)
   double mean_samples = 0;  ///< over the image: where `error` ends a render they differ
-  double seconds = 0;  ///< of rendering, without loading
+  double seconds = 0;       ///< of rendering, without loading
   int threads = 0;
   /// Root mean square, over all pixels, of the standard error of a pixel's linear luminance
   /// (1 is display white): renderer/error.h. Below two samples it is not known, and 0.

@@ -18,6 +18,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "base/hash.h"
 #include "renderer/switches.h"
@@ -47,7 +48,7 @@ class Sampler {
 
   /// Coordinates 0 to 3. All numbers are in [0, 1): never 1, also after rounding to float.
   std::array<float, 4> first() const;
-  /// Coordinates 2 `number` and the next. \pre number >= 2, or a `pair_of_light`
+  /// Coordinates 2 `number` and the next. \pre number >= 2, a `pair_of_light` or a `pair_of_glow`
   std::array<float, 2> pair(int number) const { return pair(number, 0, 1); }
   /// The same, of draw `draw` of `draws` that each sample has of it.
   std::array<float, 2> pair(int number, int draw, int draws) const;
@@ -83,5 +84,7 @@ constexpr int pair_of_bounce(int bounce, BouncePair p) {
 /// The first event has one more, of directions to where lamps are mirrored.
 inline constexpr int kLampImage = 4;
 constexpr int pair_of_light(int bounce, int i) { return -4 * bounce - i; }
+/// Directions to volumes that emit.
+constexpr int pair_of_glow(int bounce) { return std::numeric_limits<int>::min() + bounce; }
 
 }  // namespace mms::renderer

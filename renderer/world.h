@@ -6,6 +6,7 @@
 
 #include "renderer/accel.h"
 #include "renderer/camera.h"
+#include "renderer/glows.h"
 #include "renderer/lamp_images.h"
 #include "renderer/lights.h"
 #include "renderer/media.h"
@@ -33,6 +34,7 @@ struct World {
   int max_depth = 0;
   /// Of each object's volume, if it varies: Findings.
   std::vector<RateGrid> majorants, emission_rates;
+  Glows glows;
   Estimator estimator = Estimator::Clustered;
   Generator generator = Generator::Niederreiter;
   std::vector<PolishedBall> balls;       ///< by way of which lights are reached
