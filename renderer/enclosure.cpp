@@ -23,10 +23,6 @@ Interval roomy(double low, double high) {
 /// How often a flight through the middle of a volume looks for coefficients that are not a number.
 constexpr double kLeastCollisions = 4;
 
-/// How often along half of the diagonal of a volume that is as bright everywhere its emission is
-/// asked for, and at most along that of a cell.
-constexpr double kLooks = 4, kLooksOfCell = 2;
-
 /// The inputs that any of `values` of an entry reads and that `box` does not fix.
 std::vector<int> positions_read(const vm::Descriptor& d, std::span<const vm::Output> outputs) {
   std::uint32_t variables = 0;
@@ -68,15 +64,10 @@ void set_positions(vm::Box& box, const Bounds& world, const Transform& transform
 template <class F>
 std::vector<float> over_cells(const Object& o, F f) {
   constexpr int n = kRateCells;
-  const Bounds all = bounds(o.shape);
-  const Vec3d cell = (all.high - all.low) / double(n);
   std::vector<float> values;
   for (int i = 0; i < n * n * n; ++i) {
-    Bounds part;
-    part.low = all.low + cell * Vec3d{double(i % n), double(i / n % n), double(i / n / n)};
-    part.high = part.low + cell;
     vm::Box box = box_of(o);
-    set_positions(box, part, o.transform);
+    set_positions(box, cell_of(bounds(o.shape), n, i), o.transform);
     values.push_back(f(box));
   }
   return values;
@@ -128,7 +119,8 @@ RateGrid majorants_of(const vm::Program& program, const vm::Descriptor& d, const
   return {all, kRateCells, std::move(values)};
 }
 
-RateGrid emission_rates_of(const vm::Program& program, const vm::Descriptor& d, const Object& o) {
+std::vector<float> most_emission(const vm::Program& program, const vm::Descriptor& d,
+                                 const Object& o) {
   vm::BoundsMachine machine(program);
   float brightest = 0;
   std::vector<float> values = over_cells(o, [&](const vm::Box& box) {
@@ -140,14 +132,8 @@ RateGrid emission_rates_of(const vm::Program& program, const vm::Descriptor& d, 
     return most;
   });
   if (brightest == 0) brightest = 1;
-  double mean = 0;
-  for (float& v : values) mean += (v = std::min(v, brightest)) / double(values.size());
-  if (mean == 0) return {};
-  const Bounds all = bounds(o.shape);
-  const double diagonal = length(all.high - all.low);
-  for (float& v : values)
-    v = float(std::min(kLooks * v / mean * 2, kLooksOfCell * kRateCells) / diagonal);
-  return {all, kRateCells, std::move(values)};
+  for (float& v : values) v = std::min(v, brightest);
+  return values;
 }
 
 double largest_height(const vm::Program& program, const vm::Descriptor& d, const Object& o) {

@@ -5,6 +5,8 @@
 /// What is certain of an object's script without running it at points: enclosures over the box
 /// around its shape (vm/bounds.h).
 
+#include <vector>
+
 #include "renderer/rate_grid.h"
 #include "renderer/scene.h"
 #include "vm/bounds.h"
@@ -23,9 +25,10 @@ RateGrid majorants_of(const vm::Program& program, const vm::Descriptor& d, const
                       double bound);
 inline constexpr int kRateCells = 16;
 
-/// Where flights through the volume `d` ask for its emission, in 1/m: in proportion to the largest
-/// at any wavelength in each part, a few times along the diagonal. No cells where it emits nothing.
-RateGrid emission_rates_of(const vm::Program& program, const vm::Descriptor& d, const Object& o);
+/// The largest emission of the volume `d` at any wavelength in each of those parts; where none is
+/// found, that of the brightest part where one is, or 1.
+std::vector<float> most_emission(const vm::Program& program, const vm::Descriptor& d,
+                                 const Object& o);
 
 /// The largest `height` of the surface `d` anywhere on `o`, m: what its `bound` is where the author
 /// states none. Infinite where none is found.

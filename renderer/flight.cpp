@@ -13,6 +13,10 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+/// Flights from the camera ask for emission so many times as often as others: a pixel has one of
+/// them to many of those.
+constexpr float kLookStepOfCamera = 0.25f;
+
 Spectrumf unit_clamped(const Spectrumf& s) {
   return Spectrumf::map([](float x) { return x > 0 ? std::min(x, 1.0f) : 0.0f; }, s);
 }
@@ -61,6 +65,7 @@ Flight camera_flight(const World& world, int path, const Sampler& sampler, doubl
   f.path = path;
   f.t_max = kInfinity;
   f.media = world.camera_media;
+  f.look_step = kLookStepOfCamera;
   return f;
 }
 
@@ -228,7 +233,7 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
       Flight& f = flights[requests[i].flight];
       const PathView& path = paths[f.path];
       if (need == Need::Emission) {
-        see(f, emission(d.emit, c.emit_emission, f, i, path) * (1 / f.rate), path);
+        see(f, emission(d.emit, c.emit_emission, f, i, path) * (f.look_step / f.rate), path);
         continue;
       }
       Coefficients coefficients = removed(d, i, path);

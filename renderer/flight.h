@@ -67,7 +67,7 @@ struct Flight {
   std::uint32_t step = 0;      ///< counts its random numbers
   std::uint32_t stream = 0;    ///< tells them from those of other flights of the path
   double light_density = 0;    ///< of a ray for light: with which that was drawn, 1/sr
-  bool glows_drawn = false;    ///< of a path: where it left, World::glows were drawn too
+  float glow_chance = 0;       ///< of a path: that where it left World::glows were drawn too
   int beyond = -1;  ///< of a shadow ray that leaves a ball: what it goes on by, as its owner knows
   Media media;
   Carried carried;
@@ -75,8 +75,9 @@ struct Flight {
   float rate = 0;   ///< of such events as it has come to, where it is, 1/m
   /// Where emission of the first of the volumes that vary is asked for next; before 0: not known.
   RateGrid::Event look{-1, 0};
-  int known = 0;      ///< how many of the even volumes here have been asked
-  Coefficients even;  ///< the sum of those
+  float look_step = 1;  ///< how many times as seldom it is as it may be
+  int known = 0;        ///< how many of the even volumes here have been asked
+  Coefficients even;    ///< the sum of those
   /// Of the even volumes the one that is to scatter, drawn by the hero's share, and what it does.
   int drawn = -1;
   Spectrumf drawn_scattering;

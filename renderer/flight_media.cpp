@@ -40,12 +40,14 @@ bool Flights::along_media(Flight& f, float to, const PathView& path, Need& need)
   double end = to;
   for (int i = 0; i < filling.varied_count; ++i) {
     const int object = filling.varied[i];
-    const double depth = -std::log1p(-random(f, path));
+    // More of them know better how much light comes through; where it shines, much depends on that.
+    const float step = world_.emission_rates[object].empty() ? 1 : f.look_step;
+    const double depth = -std::log1p(-random(f, path)) * step;
     const RateGrid::Event c = world_.majorants[object].next(origin, direction, f.t, end, depth);
     if (!(c.t < end)) continue;  // never where the medium is empty
     end = c.t;
     f.medium = object;
-    f.rate = c.rate;
+    f.rate = c.rate / step;
     need = Need::Collision;
   }
   if (f.errand != Errand::Shadow) find_emission(f, filling, to, end, need, path);
@@ -55,7 +57,7 @@ bool Flights::along_media(Flight& f, float to, const PathView& path, Need& need)
   }
   f.t = float(end);
   if (need == Need::Emission && f.look.t == end)
-    f.look = world_.emission_rates[f.medium].next(origin, direction, end, to, 1);
+    f.look = world_.emission_rates[f.medium].next(origin, direction, end, to, f.look_step);
   return need == Need::Nothing;
 }
 
@@ -72,7 +74,8 @@ void Flights::find_emission(Flight& f, const Filling& filling, float to, double&
     RateGrid::Event e = f.look;
     if (!first || e.t < 0) {
       const double u = random(f, path);
-      e = rates.next(Vec3d(f.origin), Vec3d(f.direction), f.t, to, first ? u : -std::log1p(-u));
+      e = rates.next(Vec3d(f.origin), Vec3d(f.direction), f.t, to,
+                     f.look_step * (first ? u : -std::log1p(-u)));
       if (first) f.look = e;
     }
     first = false;
@@ -199,9 +202,10 @@ void Flights::collide(Flight& f, const Coefficients& c, const PathView& path) {
 /// Adds light that a volume sends towards where a flight came from.
 void Flights::see(const Flight& f, const Spectrumf& light, const PathView& path) {
   const bool gathers = f.errand == Errand::Gather;
-  const double density = gathers         ? f.light_density
-                         : f.glows_drawn ? world_.glows.pdf(Vec3d(f.origin), Vec3d(f.direction))
-                                         : 0;
+  const double density = gathers ? f.light_density
+                         : f.glow_chance > 0
+                             ? f.glow_chance * world_.glows.pdf(Vec3d(f.origin), Vec3d(f.direction))
+                             : 0;
   const Technique by = gathers ? Technique::Light : Technique::Scattering;
   (gathers ? *path.gathered : *path.radiance) +=
       f.carried.weighted(by, density, world_.estimator) * light;

@@ -354,7 +354,8 @@ Flight* Integrator::leave(const Vertex& v, const Scatterer& s, const Sampled& sa
   f.receives = s.receives(v.point);
   f.end = End::Flying;
   f.emission_seen = false;
-  f.glows_drawn = detour.ball < 0;
+  f.look_step = 1;
+  f.glow_chance = detour.ball < 0 ? glow_chance(paths_[path].depth) : 0;
   f.t = 0;
   f.t_max = std::numeric_limits<float>::infinity();
   f.step = 0;

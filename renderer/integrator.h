@@ -110,6 +110,8 @@ class Integrator {
   void connect(const Vertex& v, const Scatterer& s, int draws);
   void connect(const Vertex& v, const Scatterer& s, const LightSample& light);
   void connect_by(int ball, const Vertex& v, const Scatterer& s, const LightSample& light);
+  /// Of drawing volumes that emit, at a scattering event: later ones bring less.
+  static float glow_chance(int depth) { return 1 / float(depth); }
   void connect_to_glows(const Vertex& v, const Scatterer& s);
   void start_for_light(Flight& f, Errand errand) const;
   void send_to_light(Flight& f, const Vertex& v, const Sampled& towards, const LightSample& light,

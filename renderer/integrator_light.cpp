@@ -83,9 +83,12 @@ void Integrator::send_to_light(Flight& f, const Vertex& v, const Sampled& toward
 
 /// Sends a ray from a vertex that gathers what volumes emit.
 void Integrator::connect_to_glows(const Vertex& v, const Scatterer& s) {
-  const auto [u, w] =
-      paths_[v.from->path].sampler.pair(pair_of_glow(paths_[v.from->path].depth - 1));
-  const Glows::Sample light = world_.glows.sample(v.point.surface.position, u, w);
+  const Path& p = paths_[v.from->path];
+  const float chance = glow_chance(p.depth);
+  const auto [u, w] = p.sampler.pair(pair_of_glow(p.depth - 1));
+  if (u >= chance) return;
+  Glows::Sample light = world_.glows.sample(v.point.surface.position, u / chance, w);
+  light.pdf *= chance;
   if (!(light.pdf > 0)) return;
   const Sampled towards = s.evaluate(v.point, light.direction);
   if (towards.f.is_black()) return;
@@ -109,6 +112,7 @@ void Integrator::connect_to_glows(const Vertex& v, const Scatterer& s) {
 /// Lets a ray for light begin at a vertex.
 void Integrator::start_for_light(Flight& f, Errand errand) const {
   f.errand = errand;
+  f.look_step = 1;
   f.end = End::Flying;
   f.t = 0;
   f.step = 0;

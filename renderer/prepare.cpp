@@ -68,22 +68,16 @@ bool sealed(const SceneData& scene, const Compiled& compiled, int i) {
 
 namespace {
 
-/// Points of an object: on its surface, or anywhere in the box around it for its volume.
-std::vector<ScriptPoint> points_of(const Object& o, bool inside, const Cluster& cluster) {
+/// Points of the surface of an object.
+std::vector<ScriptPoint> points_of(const Object& o, const Cluster& cluster) {
   std::vector<ScriptPoint> points(kProbePoints);
   const Sampler random(0, 0, 0, 0);
-  const Bounds box = bounds(o.shape);
   for (int i = 0; i < kProbePoints; ++i) {
     const std::uint32_t k = 3 * std::uint32_t(i);
-    const double u = random.hashed(0, k), v = random.hashed(0, k + 1), w = random.hashed(0, k + 2);
     ScriptPoint& p = points[i];
     p.object = &o;
     p.cluster = &cluster;
-    p.surface = sample_surface(o.shape, u, v);
-    if (inside) {
-      const Vec3d size = box.high - box.low;
-      p.surface.position = box.low + Vec3d{size.x * u, size.y * v, size.z * w};
-    }
+    p.surface = sample_surface(o.shape, random.hashed(0, k), random.hashed(0, k + 1));
     p.view = p.surface.normal;
     p.distance = 1;
     p.cone = 1e-3;
@@ -93,8 +87,35 @@ std::vector<ScriptPoint> points_of(const Object& o, bool inside, const Cluster& 
   return points;
 }
 
+/// As many more of a box in the volume of an object.
+void add_points(std::vector<ScriptPoint>& points, const Object& o, const Bounds& box, int count,
+                const Cluster& cluster) {
+  const Sampler random(0, 0, 0, 0);
+  const Frame<double> axes = Frame<double>::around({0, 0, 1});
+  for (int i = 0; i < count; ++i) {
+    const std::uint32_t k = 3 * std::uint32_t(points.size());
+    const Vec3d u{random.hashed(0, k), random.hashed(0, k + 1), random.hashed(0, k + 2)};
+    ScriptPoint& p = points.emplace_back();
+    p.object = &o;
+    p.cluster = &cluster;
+    p.surface.position = box.low + (box.high - box.low) * u;
+    p.surface.normal = p.surface.geometric_normal = p.view = axes.n;
+    p.surface.tangent = p.screen_x = axes.s;
+    p.surface.bitangent = p.screen_y = axes.t;
+    p.distance = 1;
+    p.cone = 1e-3;
+  }
+}
+
 /// Nothing to do with the answers.
 struct None {};
+
+/// How often along half of the diagonal of a volume that is as bright everywhere its emission is
+/// asked for, and at most along that of a cell; what part of it by what it may be at most.
+constexpr double kLooks = 2, kLooksOfCell = 1, kBoundShare = 0.2;
+
+/// Points of a cell at which it is asked before.
+constexpr int kCellProbes = 4;
 
 class Probe {
  public:
@@ -111,7 +132,7 @@ class Probe {
       findings.radiance.push_back(radiance_of(o));
       if (o.volume >= 0) {
         const vm::Descriptor& d = *scene_.volumes[o.volume].script;
-        run_all(d, EntryKind::Shade, points_of(o, true, cluster_), None{});
+        run_all(d, EntryKind::Shade, points_in(o), None{});
         if (compiled_.of(&d).emits)
           findings.glows.push_back(glow_of(o, findings.emission_rates.back()));
       }
@@ -137,12 +158,61 @@ class Probe {
         "`mms bounds` shows what is known"};
   }
 
-  RateGrid emission_rates(const Object& o) const {
+  std::vector<ScriptPoint> points_in(const Object& o) const {
+    std::vector<ScriptPoint> points;
+    add_points(points, o, bounds(o.shape), kProbePoints, cluster_);
+    return points;
+  }
+
+  /// Where flights ask for the emission of a volume that varies: as it was found at points of each
+  /// cell, and lest one was missed, as enclosures bound it.
+  RateGrid emission_rates(const Object& o) {
     if (o.volume < 0) return {};
     const vm::Descriptor& d = *scene_.volumes[o.volume].script;
     const CompiledDescriptor& c = compiled_.of(&d);
     if (c.homogeneous || !c.emits) return {};
-    return emission_rates_of(compiled_.program(), d, o);
+    const std::vector<float> most = most_emission(compiled_.program(), d, o);
+    const double mean_most = mean(most);
+    if (mean_most == 0) return {};
+    const std::vector<float> found = found_emission(o, most);
+    const double mean_found = mean(found);
+    const Bounds box = bounds(o.shape);
+    const double diagonal = length(box.high - box.low);
+    std::vector<float> rates;
+    for (std::size_t i = 0; i < most.size(); ++i) {
+      const double bound = most[i] / mean_most;
+      const double share = mean_found > 0
+                               ? (1 - kBoundShare) * (found[i] / mean_found) + kBoundShare * bound
+                               : bound;
+      rates.push_back(float(std::min(2 * kLooks * share, kLooksOfCell * kRateCells) / diagonal));
+    }
+    return {box, kRateCells, std::move(rates)};
+  }
+
+  static double mean(const std::vector<float>& values) {
+    double sum = 0;
+    for (const float v : values) sum += v;
+    return sum / double(values.size());
+  }
+
+  /// The largest that is found at a few points of each cell where it may not be 0; no more than
+  /// `most`.
+  std::vector<float> found_emission(const Object& o, const std::vector<float>& most) {
+    const vm::Descriptor& d = *scene_.volumes[o.volume].script;
+    std::vector<ScriptPoint> points;
+    std::vector<int> cells;
+    for (int i = 0; i < int(most.size()); ++i) {
+      if (!(most[i] > 0)) continue;
+      add_points(points, o, cell_of(bounds(o.shape), kRateCells, i), kCellProbes, cluster_);
+      cells.resize(points.size(), i);
+    }
+    std::vector<float> found(most.size());
+    run_all(d, EntryKind::Emit, points, [&](const ScriptPoint& p, int lane) {
+      const float e = scripts_.spectrum(d.emit.emission, lane).sum() / kWavelengths;
+      float& largest = found[cells[&p - points.data()]];
+      if (e > largest) largest = std::min(e, most[cells[&p - points.data()]]);
+    });
+    return found;
   }
 
   template <class F>
@@ -166,7 +236,7 @@ class Probe {
       return 0.2126 * e[0] + 0.7152 * e[1] + 0.0722 * e[2];
     }
     const vm::Descriptor& d = *surface.script;
-    const std::vector<ScriptPoint> points = points_of(o, false, cluster_);
+    const std::vector<ScriptPoint> points = points_of(o, cluster_);
     run_all(d, EntryKind::Shade, points, None{});
     if (compiled_.of(&d).semi_transparent) run_all(d, EntryKind::Pass, points, None{});
     if (!compiled_.of(&d).emits) return 0;
@@ -184,10 +254,10 @@ class Probe {
   Glow glow_of(const Object& o, const RateGrid& rates) {
     const vm::Descriptor& d = *scene_.volumes[o.volume].script;
     double sum = 0;
-    run_all(d, EntryKind::Emit, points_of(o, true, cluster_), [&](const ScriptPoint&, int lane) {
+    run_all(d, EntryKind::Emit, points_in(o), [&](const ScriptPoint&, int lane) {
       sum += std::max(0.0, cluster_.xyz(scripts_.spectrum(d.emit.emission, lane))[1]);
     });
-    const Bounds box = rates.empty() ? bounds(o.shape) : rates.support();
+    const Bounds box = rates.empty() ? bounds(o.shape) : rates.support(rates.largest() / 8);
     Glow glow{(box.low + box.high) * 0.5, length(box.high - box.low) / 2, 1};
     if (const Sphere* s = std::get_if<Sphere>(&o.shape); s && s->radius < glow.radius)
       glow.centre = s->centre, glow.radius = s->radius;

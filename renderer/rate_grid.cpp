@@ -7,6 +7,15 @@
 
 namespace mms::renderer {
 
+Bounds cell_of(const Bounds& box, int cells, int i) {
+  const Vec3d cell = (box.high - box.low) / double(cells);
+  Bounds part;
+  part.low = box.low +
+             cell * Vec3d{double(i % cells), double(i / cells % cells), double(i / cells / cells)};
+  part.high = part.low + cell;
+  return part;
+}
+
 RateGrid::RateGrid(const Bounds& box, int cells, std::vector<float> values)
     : box_(box),
       cell_((box.high - box.low) / double(cells)),
@@ -17,14 +26,13 @@ float RateGrid::largest() const {
   return values_.empty() ? 0 : *std::max_element(values_.begin(), values_.end());
 }
 
-Bounds RateGrid::support() const {
+Bounds RateGrid::support(float least) const {
   Bounds all;
   for (int i = 0; i < int(values_.size()); ++i) {
-    if (!(values_[i] > 0)) continue;
-    const Vec3d low = box_.low + cell_ * Vec3d{double(i % cells_), double(i / cells_ % cells_),
-                                               double(i / cells_ / cells_)};
-    all.add(low);
-    all.add(low + cell_);
+    if (values_[i] < least) continue;
+    const Bounds cell = renderer::cell_of(box_, cells_, i);
+    all.add(cell.low);
+    all.add(cell.high);
   }
   return all;
 }

@@ -11,15 +11,18 @@
 
 namespace mms::renderer {
 
+/// The `i`-th of cells^3 parts of a box, x fastest.
+Bounds cell_of(const Bounds& box, int cells, int i);
+
 class RateGrid {
  public:
   RateGrid() = default;
-  /// `values`: cells^3 of them, 1/m, not negative, x fastest.
+  /// `values`: cells^3 of them, 1/m, not negative, as `cell_of` counts.
   RateGrid(const Bounds& box, int cells, std::vector<float> values);
 
   bool empty() const { return values_.empty(); }
-  float largest() const;   ///< 0 of a grid without cells
-  Bounds support() const;  ///< of the cells that are not 0
+  float largest() const;              ///< 0 of a grid without cells
+  Bounds support(float least) const;  ///< around the cells of at least that
   /// In the cell of `p`, or in the nearest one.
   float at(Vec3d p) const;
 
