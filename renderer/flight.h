@@ -73,7 +73,7 @@ struct Flight {
   Carried carried;
   int medium = -1;  ///< object whose volume is asked, or scattered it
   float rate = 0;   ///< of such events as it has come to, where it is, 1/m
-  /// Where emission of the first of the volumes that vary is asked for next; before 0: not known.
+  /// Where the first volume that varies and emits is asked next; before 0: not known.
   RateGrid::Event look{-1, 0};
   float look_step = 1;  ///< how many times as seldom it is as it may be
   int known = 0;        ///< how many of the even volumes here have been asked
