@@ -268,10 +268,10 @@ typename Bsdf<R>::Choice Bsdf<R>::choose(Vec3<R> wo) const {
   for (int j = 0; j < kWavelengths; ++j) sum[j] = sum[j] > least ? 1 / sum[j] : R(0);
   for (int i = 0; i < node_count(); ++i) probability[i] *= sum;
   choice.any = sum[0] > 0;
-  find_coats(*layout_, params_, choice.coats);
+  find_coats(*layout_, params_, wo, choice.coats);
   for (int i = 0; i < node_count(); ++i) {
     const CoatAbove<R>& coat = choice.coats.of[i];
-    if (!coat.lobe.table) continue;
+    if (!coat.lobe.known()) continue;
     with_model(i, 0, [&](const auto& model) {
       if constexpr (requires { model.coated(wo); }) {
         const CoatedLobe<R> lobe = model.coated(wo);
@@ -302,7 +302,7 @@ template <class R>
 Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const {
   Lobes<R> total;
   PerNode<NodeWeight<R>> weights;
-  weigh(*layout_, params_, choice.coats, std::abs(wo.z), std::abs(wi.z), mode, weights);
+  weigh(*layout_, params_, choice.coats, wo, wi, mode, weights);
   for (int i = 0; i < node_count(); ++i) {
     with_model(i, 0, [&](const auto& model) {
       using Model = std::decay_t<decltype(model)>;
@@ -313,7 +313,7 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
         total.pdf += l.pdf * choice.probability.of[i];
         if constexpr (requires { model.coated(wo); }) {
           const CoatAbove<R>& coat = choice.coats.of[i];
-          if (coat.ior && !(share > 0 && coat.nested)) {
+          if (coat.ior && !(share > 0 && (coat.nested || coat.lobe.stretched()))) {
             total.f += l.f * coated_weight(weights.of[i], coat, choice.under.of[i],
                                            model.coated(wo), model.coated(wi), wo.z, wi.z);
             return 0;
@@ -395,7 +395,7 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u,
   if (node_count() == 1)
     weights.of[0] = {};
   else
-    weigh(*layout_, params_, choice.coats, std::abs(wo.z), cos_i, mode, weights);
+    weigh(*layout_, params_, choice.coats, wo, s.wi, mode, weights);
   for (int i = 0; i < node_count(); ++i) {
     const SpecularTerms<R> t = i == lobe ? mine : terms_of(i);
     for (int j = 0; j < kWavelengths; ++j) {

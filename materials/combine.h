@@ -23,15 +23,18 @@
 /// over a Lambert base is 1 exactly; but near grazing a broad coat loses much: min(F, F') is small
 /// where F' is.
 ///
-/// Where the coat is one `glossy` or isotropic `microfacet` and the index above 1, what it reflects
-/// is known: with M(wo) the mean of F' over what it scatters (materials/energy.h) its factor is
+/// Where the coat is one `glossy`, `microfacet` or `beckmann`, scaled or not, and the index above
+/// 1, what it reflects is known: with M(wo) the mean of F' over what it scatters
+/// (materials/coat_lobe.h) its factor is
 ///   coat: (F + F') / 2          which reflects E(wo) = (F + M(wo)) / 2
 ///   base: 1 - max(E, E')        or, for the Lambert lobes right below it,
 ///         (1 - E)(1 - E') / (1 - mean F)   as the means of E and F are the same
-/// so that a white matte under such a white coat is 1 in every direction, within 1e-4.
+/// so that a white matte under such a white coat is 1 in every direction, within 1e-4; under
+/// stretched facets, within 3e-4.
 ///
-/// Facets that are round, `glossy` and `rough_matte` get g(wo) g(wi) for T = 1 - E there
-/// (materials/rough_coat.h), within 1e-4. Stretched facets get 1 - max(E, E').
+/// Under a coat that is not stretched, facets that are round, `glossy` and `rough_matte` get
+/// g(wo) g(wi) for T = 1 - E there (materials/rough_coat.h), within 1e-4. Stretched facets, and all
+/// of these under stretched ones, get 1 - max(E, E').
 ///
 /// Where a coat lies under such a coat, or a polished one (of T = 1 - F, or 1 - E where that is
 /// rough; it may be plastic under varnish), the Lambert lobes right below both get the product of
@@ -63,6 +66,7 @@
 #include "materials/fresnel.h"
 #include "materials/layout.h"
 #include "materials/lobe.h"
+#include "materials/microfacet.h"
 #include "materials/rough_coat.h"
 #include "materials/sheen.h"
 
@@ -72,22 +76,23 @@ namespace mms::materials {
 template <class R>
 struct NodeWeight {
   Spectrum<R> other{R(1)}, lambert{R(1)};
-  /// Where a coat is right above: what it lets through along both directions, and the factor for
-  /// lobes with a G of materials/coated.h, times G G'.
-  Spectrum<R> through_o{}, through_i{}, coated{};
+  /// Where a coat is right above: what it lets through along wi, and the factor for lobes with a G
+  /// of materials/coated.h, times G G'.
+  Spectrum<R> through_i{}, coated{};
 
   /// The weight of a child that is a part of the node.
   NodeWeight operator*(const Spectrum<R>& part) const {
-    return {other * part, lambert * part, through_o, through_i, coated * part};
+    return {other * part, lambert * part, through_i, coated * part};
   }
 };
 
-/// The coat right above a node.
+/// The coat right above a node, where light is seen along one direction.
 template <class R>
 struct CoatAbove {
   const R* ior = nullptr;  ///< its indices; null: there is none
   CoatLobe<R> lobe{};      ///< its own, where it is known
   bool nested = false;     ///< there is a second coat right above that one
+  CoatAlong<R> o{};
 };
 
 /// One entry for each node of a layout; entries beyond it are not initialised.
@@ -103,52 +108,40 @@ namespace detail {
 template <class R>
 inline CoatLobe<R> coat_lobe(const Layout& layout, const R* params, int node) {
   const Layout::Node& n = layout.nodes()[node];
-  const R* p = params + n.first_param + kWavelengths;
-  if (n.lobe == Lobe::Glossy) {
-    const R gloss = non_negative(p[0]);
-    if (gloss <= R(axes::kLargestGloss)) return CoatLobe<R>::glossy(gloss);
-  } else if (n.lobe == Lobe::Microfacet) {
-    const Alpha<R> a = Alpha<R>::from(p[0], p[1]);
-    if (a.ax == a.ay && !a.specular()) return CoatLobe<R>::microfacet(a.ax);
+  const R* p = params + n.first_param;
+  const auto facets = [](const auto& model) {
+    return model.specular() ? CoatLobe<R>() : model.rough.coat();
+  };
+  switch (n.lobe) {
+    case Lobe::Scale:
+      return coat_lobe(layout, params, n.children[0]);
+    case Lobe::Glossy: {
+      const R gloss = non_negative(p[kWavelengths]);
+      return gloss <= R(axes::kLargestGloss) ? CoatLobe<R>::glossy(gloss) : CoatLobe<R>();
+    }
+    case Lobe::Microfacet:
+      return facets(Microfacet<R>(p));
+    case Lobe::Beckmann:
+      return facets(BeckmannMirror<R>(p));
+    default:
+      return {};
   }
-  return {};
-}
-
-/// What a coat does to one pair of directions: the factor of its own lobe; the bounded one of its
-/// base; and the product of what it lets through along both.
-template <class R>
-struct CoatFactors {
-  R coat, base, through, through_o, through_i;
-};
-
-template <class R>
-inline CoatFactors<R> coat_factors(R eta, const CoatLobe<R>& lobe, R cos_o, R cos_i,
-                                   FresnelSplit<R> o, FresnelSplit<R> i) {
-  R coat = std::min(o.reflected, i.reflected);
-  if (lobe.table && eta > 1) {
-    coat = (o.reflected + i.reflected) / 2;
-    o.transmitted = (o.transmitted + 1 - lobe.mean_fresnel(eta, cos_o, o.reflected)) / 2;
-    i.transmitted = (i.transmitted + 1 - lobe.mean_fresnel(eta, cos_i, i.reflected)) / 2;
-  }
-  return {coat, std::min(o.transmitted, i.transmitted), o.transmitted * i.transmitted,
-          o.transmitted, i.transmitted};
 }
 
 /// The mean of what a coat of relative index `eta` lets through; under another of index `above`,
 /// of the product of what both do.
 template <class R>
 inline R mean_through(R eta, R above) {
-  const R through = 1 - fresnel_dielectric_diffuse(eta);
+  const R through = materials::mean_through(eta);
   if (!(above > 1 && eta > 1)) return through;
   return through - fresnel_dielectric_diffuse(above) + mean_fresnel_product(eta, above);
 }
 
 template <class R>
-inline void weigh_fresnel_mix(const CoatAbove<R>& mix, const R* ior_above, R cos_o, R cos_i,
+inline void weigh_fresnel_mix(const CoatAbove<R>& mix, const R* ior_above, Vec3<R> wi,
                               const NodeWeight<R>& w, NodeWeight<R>& base, NodeWeight<R>& coat) {
-  cos_o = limited(cos_o, R(0), R(1));
-  cos_i = limited(cos_i, R(0), R(1));
-  CoatFactors<R> f{};
+  const CoatAlong<R>& o = mix.o;
+  const CoatAlong<R> i(mix.ior, mix.lobe, wi);
   R kept = 1, last_above = 0;
   Spectrum<R> reflects;
   for_each_index(mix.ior, [&](int j, bool repeated) {
@@ -157,17 +150,15 @@ inline void weigh_fresnel_mix(const CoatAbove<R>& mix, const R* ior_above, R cos
     const bool known = above > 1 && eta > 1;
     if (!repeated || above != last_above) kept = mean_through(eta, above);
     last_above = above;
-    if (!repeated)
-      f = coat_factors(eta, mix.lobe, cos_o, cos_i, fresnel_split(cos_o, eta),
-                       fresnel_split(cos_i, eta));
-    reflects[j] = f.coat;
-    base.other[j] = w.other[j] * f.base;
+    const R through = o.through[j] * i.through[j];
+    reflects[j] = mix.lobe.known() && eta > 1 ? (o.reflected[j] + i.reflected[j]) / 2
+                                              : std::min(o.reflected[j], i.reflected[j]);
+    base.other[j] = w.other[j] * std::min(o.through[j], i.through[j]);
     // Elsewhere the factor of a mix above stays in its bounded form: w.other, not w.lambert.
-    base.lambert[j] = kept > 0 ? (known ? w.coated[j] : w.other[j]) * f.through / kept : R(0);
-    base.coated[j] = w.other[j] * f.through;
-    base.through_o[j] = f.through_o;
-    base.through_i[j] = f.through_i;
+    base.lambert[j] = kept > 0 ? (known ? w.coated[j] : w.other[j]) * through / kept : R(0);
+    base.coated[j] = w.other[j] * through;
   });
+  base.through_i = i.through;
   coat = w * reflects;
 }
 
@@ -178,7 +169,7 @@ inline void choose_fresnel_mix(const R* ior, const CoatLobe<R>& lobe, R cos_o,
   const InterfaceSplits<R> s(ior, Vec3<R>{0, 0, 1}, cos_o);
   reflected = s.reflected;
   transmitted = s.transmitted;
-  if (!lobe.table) return;
+  if (!lobe.known()) return;
   for (int j = 0; j < kWavelengths; ++j) {
     const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
     if (!(eta > 1)) continue;
@@ -254,9 +245,10 @@ inline bool weigh_by_numbers(const Layout::Node& node, const R* p, int i, Weight
 
 }  // namespace detail
 
-/// The coats right above every node.
+/// The coats right above every node, where light is seen along `wo`.
 template <class R>
-inline void find_coats(const Layout& layout, const R* params, PerNode<CoatAbove<R>>& coats) {
+inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
+                       PerNode<CoatAbove<R>>& coats) {
   const auto nodes = layout.nodes();
   auto& above = coats.of;
   above[nodes.size() - 1] = {};
@@ -265,11 +257,14 @@ inline void find_coats(const Layout& layout, const R* params, PerNode<CoatAbove<
     const R* p = params + node.first_param;
     for (int c = 0; c < node.child_count; ++c) above[node.children[c]] = above[i];
     const int a = node.children[0], b = node.children[1];
-    const bool nested = above[i].ior;
+    const auto coated = [&](int base, int coat, const R* ior) {
+      const CoatLobe<R> lobe = detail::coat_lobe(layout, params, coat);
+      above[base] = {ior, lobe, above[i].ior != nullptr, {ior, lobe, wo}};
+    };
     if (node.lobe == Lobe::FresnelMix)
-      above[a] = {p, detail::coat_lobe(layout, params, b), nested};
+      coated(a, b, p);
     else if (node.lobe == Lobe::Coat)
-      above[b] = {p + 1 + kWavelengths, detail::coat_lobe(layout, params, a), nested};
+      coated(b, a, p + 1 + kWavelengths);
     else if (node.lobe == Lobe::Layer && nodes[a].lobe == Lobe::Sheen)
       above[b] = {};
   }
@@ -278,8 +273,9 @@ inline void find_coats(const Layout& layout, const R* params, PerNode<CoatAbove<
 /// Factors for the pair of directions, for every node.
 template <class R>
 inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove<R>>& coats,
-                  R cos_o, R cos_i, Mode mode, PerNode<NodeWeight<R>>& weights) {
+                  Vec3<R> wo, Vec3<R> wi, Mode mode, PerNode<NodeWeight<R>>& weights) {
   const auto nodes = layout.nodes();
+  const R cos_o = std::abs(wo.z), cos_i = std::abs(wi.z);
   auto& w = weights.of;
   w[nodes.size() - 1] = NodeWeight<R>{};
   for (int i = int(nodes.size()) - 1; i >= 0; --i) {
@@ -299,10 +295,10 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
         break;
       }
       case Lobe::FresnelMix:
-        detail::weigh_fresnel_mix(coats.of[a], coats.of[i].ior, cos_o, cos_i, w[i], w[a], w[b]);
+        detail::weigh_fresnel_mix(coats.of[a], coats.of[i].ior, wi, w[i], w[a], w[b]);
         break;
       case Lobe::Coat:
-        detail::weigh_fresnel_mix(coats.of[b], coats.of[i].ior, cos_o, cos_i, w[i], w[b], w[a]);
+        detail::weigh_fresnel_mix(coats.of[b], coats.of[i].ior, wi, w[i], w[b], w[a]);
         detail::dim_by_layer(p, cos_o, cos_i, [&](int j, R through) {
           w[b].other[j] *= through;
           w[b].lambert[j] *= through;
@@ -318,7 +314,7 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
 /// Whether materials/rough_coat.h is asked for a lobe under that coat.
 template <class R>
 inline bool under_rough_coat(const CoatAbove<R>& coat, const CoatedLobe<R>& lobe) {
-  return coat.lobe.table && !lobe.stretched.table;
+  return coat.lobe.known() && !coat.lobe.stretched() && !lobe.stretched();
 }
 
 /// The factor for a lobe right below a coat, from those of its node; `o` and `i` are the lobe along
@@ -328,7 +324,7 @@ inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const CoatAbove<R>& coa
                                  const UnderRoughCoat<R>& under, const CoatedLobe<R>& o,
                                  const CoatedLobe<R>& i, R cos_o, R cos_i) {
   const bool rough = under_rough_coat(coat, o);
-  if (coat.lobe.table && !rough) return w.other;  // of stretched facets no more is known
+  if (coat.lobe.known() && !rough) return w.other;  // of stretched facets no more is known
   cos_o = std::min(std::abs(cos_o), R(1));
   cos_i = std::min(std::abs(cos_i), R(1));
   typename UnderRoughCoat<R>::Along along_o, along_i;
@@ -338,8 +334,8 @@ inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const CoatAbove<R>& coa
   for_each_index(coat.ior, [&](int j, bool repeated) {
     const R eta = relative_eta(coat.ior[j], Vec3<R>{0, 0, 1});
     if (!repeated && eta > 1) {
-      const R of_o = rough ? under.mean_squared(j, along_o, w.through_o[j])
-                           : o.mean_squared(eta, cos_o, w.through_o[j]);
+      const R of_o = rough ? under.mean_squared(j, along_o, coat.o.through[j])
+                           : o.mean_squared(eta, cos_o, coat.o.through[j]);
       const R of_i = rough ? under.mean_squared(j, along_i, w.through_i[j])
                            : i.mean_squared(eta, cos_i, w.through_i[j]);
       const R both = std::sqrt(of_o) * std::sqrt(of_i);

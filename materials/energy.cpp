@@ -14,14 +14,14 @@ namespace {
 const FacetTables kGgxTables{kGgxLoss, kGgxMean, kGgxStretched, kGgxStretchedMean};
 const FacetTables kBeckmannTables{kBeckmannLoss, kBeckmannMean, kBeckmannStretched,
                                   kBeckmannStretchedMean};
-const float* const kGlossyCoat = kGlossyCoatTable;
-const float* const kGgxCoat = kGgxCoatTable;
-const CoatedTables kGgxCoated{kGgxCoatedTable, kGgxSpreadTable};
-const CoatedTables kBeckmannCoated{kBeckmannCoatedTable, kBeckmannSpreadTable};
-const CoatedTables kGlossyCoated{kGlossyCoatedTable, kGlossySpreadTable};
-const CoatedTables kMatteCoated{kMatteCoatedTable, kMatteSpreadTable};
-const float* const kGgxStretchedCoated = kGgxStretchedCoatedTable;
-const float* const kBeckmannStretchedCoated = kBeckmannStretchedCoatedTable;
+const CoatTables kGgxCoat{kGgxCoatTable, kGgxStretchedCoatTable};
+const CoatTables kBeckmannCoat{kBeckmannCoatTable, kBeckmannStretchedCoatTable};
+const CoatTables kGlossyCoat{kGlossyCoatTable, nullptr};
+const CoatedTables kGgxCoated{kGgxCoatedTable, kGgxStretchedCoatedTable, kGgxSpreadTable};
+const CoatedTables kBeckmannCoated{kBeckmannCoatedTable, kBeckmannStretchedCoatedTable,
+                                   kBeckmannSpreadTable};
+const CoatedTables kGlossyCoated{kGlossyCoatedTable, nullptr, kGlossySpreadTable};
+const CoatedTables kMatteCoated{kMatteCoatedTable, nullptr, kMatteSpreadTable};
 const float* const kFresnelProduct = kFresnelProductTable;
 const InterfaceTables kGgxInterface{{kGgxDense, kGgxRare},
                                     {kGgxDenseMean, kGgxRareMean},

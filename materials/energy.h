@@ -53,12 +53,6 @@ inline constexpr float kGgxKink = 0.6f, kBeckmannKink = 0;
 inline constexpr BentGrid kGgxBent[] = {{11, 14, 26, 12}, {12, 20, 28, 14}};
 inline constexpr BentGrid kBeckmannBent[] = {{12, 14, 26, 12}, {18, 20, 32, 14}};
 
-/// Mean Fresnel reflectance over the directions that a coat's lobe scatters to, minus that at the
-/// direction it scatters from, for indices above 1: [gloss][index][direction] of `glossy`,
-/// [alpha][index][direction] of white isotropic `microfacet`.
-extern const float* const kGlossyCoat;
-extern const float* const kGgxCoat;
-
 /// How directions and widths are laid out over [0, 1] along the axes of the tables.
 namespace axes {
 
@@ -462,41 +456,6 @@ inline R transmitted_share(R mean_here, R mean_there, R eta) {
   const R there = eta * eta * mean_there;
   return there / (mean_here + there);
 }
-
-/// What the table of a coat holds for a lobe's width, relative index `eta` > 1 and |cosine| `z`.
-template <class R>
-inline R interpolate_coat(const float* table, const Stencil<R>& width, R eta, R z) {
-  using namespace axes;
-  const auto n = Stencil<R>::at(index(eta), kCoatIndex);
-  const auto d = Stencil<R>::at(coat_direction(z), kCoatDirection);
-  constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatIndex);
-  return interpolate(table, width, n0, n, n1, d);
-}
-
-/// The lobe of a coat of which it is known how it spreads light: a table and the place in it.
-template <class R>
-struct CoatLobe {
-  const float* table = nullptr;  ///< null: not known
-  Stencil<R> width;
-
-  static CoatLobe glossy(R gloss) {
-    return {kGlossyCoat, Stencil<R>::at(axes::gloss(gloss), axes::kGloss)};
-  }
-  static CoatLobe microfacet(R alpha) {
-    return {kGgxCoat, Stencil<R>::at(axes::coat_alpha(alpha), axes::kCoatAlpha)};
-  }
-
-  /// Mean over wi of Fresnel's F(|wi.z|), as the lobe scatters from a direction of |cosine| `z`
-  /// with reflectance `f` there; `eta` > 1.
-  R mean_fresnel(R eta, R z, R f) const {
-    return mean_of(f, interpolate_coat(table, width, eta, z));
-  }
-  /// That, from what the table says.
-  static R mean_of(R f, R difference) {
-    const R mean = f + difference;
-    return mean > 0 ? std::min(mean, R(1)) : R(0);
-  }
-};
 
 /// How directions of further bounces are drawn: much as they are distributed, in closed form.
 /// The density over projected solid angle is proportional to 1 / (z^2 + alpha^2).

@@ -11,7 +11,8 @@
 ///   shadow(w)             |w.z| Lambda(w): finite at grazing angles
 ///   sample_visible(wo, u1, u2)  a normal that `wo` (z > 0) sees
 ///   tables(), interface() what multiple scattering needs (materials/energy.h)
-///   coated(), stretched_coated()  what a coat needs (materials/coated.h)
+///   coat(), coated()      the same of coats, and of what lies below one (materials/coat_lobe.h,
+///                         materials/coated.h)
 
 #include "materials/coated.h"
 #include "materials/energy.h"
@@ -76,8 +77,8 @@ struct Ggx : Alpha<R> {
 
   static const FacetTables& tables() { return kGgxTables; }
   static const InterfaceTables& interface() { return kGgxInterface; }
+  static const CoatTables& coat() { return kGgxCoat; }
   static const CoatedTables& coated() { return kGgxCoated; }
-  static const float* stretched_coated() { return kGgxStretchedCoated; }
 };
 
 /// x with erf(x) = `y` in (-1, 1): a start after Winitzki (2008), then Newton's method.
@@ -126,8 +127,8 @@ struct Beckmann : Alpha<R> {
 
   static const FacetTables& tables() { return kBeckmannTables; }
   static const InterfaceTables& interface() { return kBeckmannInterface; }
+  static const CoatTables& coat() { return kBeckmannCoat; }
   static const CoatedTables& coated() { return kBeckmannCoated; }
-  static const float* stretched_coated() { return kBeckmannStretchedCoated; }
 
  private:
   /// The slope along a direction of cosine c and sine s: the density over x < c / s is proportional

@@ -38,12 +38,9 @@ struct RoughReflection {
   bool specular() const { return facets.specular(); }
   FacetLoss<R> loss() const { return {&facets.tables(), facets.ax, facets.ay}; }
   BounceSampling<R> bounces() const { return {facets.ax * facets.ay}; }
+  CoatLobe<R> coat() const { return CoatLobe<R>::facets(facets.coat(), facets.ax, facets.ay); }
   CoatedLobe<R> coated(Vec3<R> w) const {
-    const R x = facets.ax, y = facets.ay;
-    if (x == y) return CoatedLobe<R>::facets(facets.coated(), x);
-    if (x < y) w = {w.y, w.x, w.z};
-    return CoatedLobe<R>::facets(facets.coated(), facets.stretched_coated(), std::max(x, y),
-                                 std::min(x, y), w);
+    return CoatedLobe<R>::facets(facets.coated(), facets.ax, facets.ay, w);
   }
 
   /// What happens between two directions of one side.

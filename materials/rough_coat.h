@@ -4,9 +4,9 @@
 /// \file
 /// What lobes are scaled by under a coat whose own lobe is rough: G of materials/coated.h, solved
 /// for once where light is seen along one direction, at few directions with polynomials between.
-/// White facets, `glossy` and `rough_matte` below a white `glossy` or isotropic
-/// `microfacet` keep their energy within 1e-4, for indices from 1.02 to 4 (next to a mirror, of a
-/// roughness below 0.1, 1e-3; above 4, 2e-3).
+/// White facets, `glossy` and `rough_matte` below a white `glossy`, `microfacet` or `beckmann`, none
+/// of them stretched, keep their energy within 1e-4, for indices from 1.02 to 4 (next to a mirror,
+/// of a roughness below 0.1, 1e-3; above 4, 2e-3).
 
 #include <algorithm>
 #include <array>
@@ -144,7 +144,7 @@ class UnderRoughCoat {
     R line[n1] = {};
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j) {
-        const float* p = coat.table + (coat.width.first + i) * n0 + (n.first + j) * n1;
+        const float* p = coat.tables->round + (coat.width.first + i) * n0 + (n.first + j) * n1;
         for (int k = 0; k < n1; ++k) line[k] += coat.width.weight[i] * n.weight[j] * R(p[k]);
       }
     Values through;

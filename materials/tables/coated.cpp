@@ -127,6 +127,15 @@ std::vector<Spread> facet_lobes() {
   });
 }
 
+/// As a coat and under one.
+template <template <class> class Distribution>
+void write_facets(std::FILE* to, const std::string& name, const std::vector<Spread>& lobes) {
+  const auto coat = write_coat(to, name, lobes), coated = write_coated(to, name, lobes);
+  const StretchedTables stretched = stretched_coats<Distribution>(coat.data(), coated.data());
+  write_numbers(to, name + "StretchedCoatTable", stretched.coat, 4);
+  write_numbers(to, name + "StretchedCoatedTable", stretched.coated, 4);
+}
+
 }  // namespace
 }  // namespace mms::materials::tables
 
@@ -138,15 +147,9 @@ int main(int argc, char** argv) {
     const auto ggx = facet_lobes<Ggx>(), beckmann = facet_lobes<Beckmann>();
     const auto glossy = lobes(kGloss, [](double x) { return glossy_lobe(gloss_at(x)); });
     const auto matte = lobes(kCoatedMatte, [](double x) { return matte_lobe(x); });
-    const auto stretched = [&](const char* name, const std::vector<float>& table) {
-      write_numbers(to, name, table, 4);
-    };
-    write_coat(to, "kGgx", ggx);
+    write_facets<Ggx>(to, "kGgx", ggx);
+    write_facets<Beckmann>(to, "kBeckmann", beckmann);
     write_coat(to, "kGlossy", glossy);
-    stretched("kGgxStretchedCoatedTable",
-              stretched_coats<Ggx>(write_coated(to, "kGgx", ggx).data()));
-    stretched("kBeckmannStretchedCoatedTable",
-              stretched_coats<Beckmann>(write_coated(to, "kBeckmann", beckmann).data()));
     write_coated(to, "kGlossy", glossy);
     write_coated(to, "kMatte", matte);
     const auto facet_width = [](double place) { return width(alpha_at(place)); };

@@ -65,9 +65,13 @@ Values scaled_mean(const Lobe& lobe, const Values& through) {
   return mean;
 }
 
-/// What stretched facets of a distribution have other than the round ones of the table `round`:
-/// coefficients of [width][index][direction][term of ShapeBasis].
+/// What stretched facets of a distribution have other than round ones: coefficients of
+/// [width][index][direction][term of ShapeBasis].
+struct StretchedTables {
+  std::vector<float> coat, coated;  ///< of CoatTables, and of CoatedTables
+};
+/// From the tables of round ones, CoatTables::round and CoatedTables::polished.
 template <template <class> class Distribution>
-std::vector<float> stretched_coats(const float* round);
+StretchedTables stretched_coats(const float* round_coat, const float* round_coated);
 
 }  // namespace mms::materials::tables

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of stretched facets under a coat (materials/coated.h): two minutes of one core.
+// The tables of stretched facets as a coat (materials/coat_lobe.h) and under one
+// (materials/coated.h): two minutes of one core.
 #include <numbers>
 #include <numeric>
 #include <vector>
@@ -169,21 +170,38 @@ double index_at(double place) {
   return (1 + x) / (1 - x);
 }
 
-/// G along all directions of the lobe.
-template <class Lobe>
-Values mean_under(const Lobe& lobe, double eta) {
-  Values through(kNodes);
-  for (int o = 0; o < kNodes; ++o)
-    through[o] = fresnel_split(lobe.directions().at(o).z, eta).transmitted;
-  return scaled_mean(lobe, through);
-}
+/// M - F of a coat of index `eta`, and G below a polished one, along all directions of the lobe.
+struct OfIndex {
+  Values coat, coated;
 
-/// What G^2 of facets is above that of round ones, for all shapes, at each index and direction.
+  template <class Lobe>
+  OfIndex(const Lobe& lobe, double eta) : coat(kNodes) {
+    Values through(kNodes);
+    for (int o = 0; o < kNodes; ++o) {
+      const auto [reflected, transmitted] = fresnel_split(lobe.directions().at(o).z, eta);
+      coat[o] = reflected;
+      through[o] = transmitted;
+    }
+    const Values mean = lobe.mean(coat);
+    for (int o = 0; o < kNodes; ++o) coat[o] = mean[o] - coat[o];
+    coated = scaled_mean(lobe, through);
+  }
+};
+
+/// Of stretched facets less of round ones, for each index and direction at all shapes.
+struct Differences {
+  std::vector<Values> coat, coated;
+
+  explicit Differences(int shapes)
+      : coat(axes::kStretchedCoatIndex * axes::kStretchedCoatDirection, Values(shapes)),
+        coated(coat) {}
+};
+
 template <template <class> class Distribution>
-std::vector<Values> differences(const ShapeFit& shapes, double root, const float* round) {
+Differences differences(const ShapeFit& shapes, double root, const float* round_coat,
+                        const float* round_coated) {
   using namespace axes;
-  const CoatedTables tables{round, nullptr};
-  std::vector<Values> all(kStretchedCoatIndex * kStretchedCoatDirection, Values(shapes.count()));
+  Differences all(shapes.count());
   for (int first = 0, end = 0; first < shapes.count(); first = end) {
     // All shapes of one ring are the same facets, along other directions.
     const double aspect = shapes.facets(first).wide, wide = root * aspect, narrow = root / aspect;
@@ -191,17 +209,21 @@ std::vector<Values> differences(const ShapeFit& shapes, double root, const float
     const Lobe<Distribution<double>> lobe(wide, narrow);
     for (int n = 0; n < kStretchedCoatIndex; ++n) {
       const double eta = index_at(double(n) / (kStretchedCoatIndex - 1));
-      const Values mean = mean_under(lobe, eta);
+      const OfIndex stretched(lobe, eta);
       for (int d = 0; d < kStretchedCoatDirection; ++d) {
         const double place = double(d) / (kStretchedCoatDirection - 1);
         const double z = cosine_at(std::max(place, 1e-3)), s = std::sqrt((1 - z) * (1 + z));
+        const double through = fresnel_split(z, eta).transmitted;
         for (int i = first; i < end; ++i) {
           const auto seen = shapes.facets(i);
           const Vec3d w{s * seen.x, s * seen.y, z};
-          const double g = lobe.directions().value(mean, w);
-          const auto like = CoatedLobe<double>::facets(tables, coated_width(wide, narrow, w));
-          all[n * kStretchedCoatDirection + d][i] =
-              g * g - like.mean_squared(eta, z, fresnel_split(z, eta).transmitted);
+          const auto width =
+              CoatLobe<double>::facet_width(FacetsAlong<double>(nullptr, wide, narrow, w).like);
+          const double m = lobe.directions().value(stretched.coat, w),
+                       g = lobe.directions().value(stretched.coated, w);
+          const int at = n * kStretchedCoatDirection + d;
+          all.coat[at][i] = m - interpolate_coat(round_coat, width, eta, z);
+          all.coated[at][i] = g * g - through - interpolate_coat(round_coated, width, eta, z);
         }
       }
     }
@@ -212,24 +234,34 @@ std::vector<Values> differences(const ShapeFit& shapes, double root, const float
 }  // namespace
 
 template <template <class> class Distribution>
-std::vector<float> stretched_coats(const float* round) {
+StretchedTables stretched_coats(const float* round_coat, const float* round_coated) {
   using namespace axes;
   const ShapeFit shapes(kStretchedCoatDegree);
   const int steps = kStretchedCoatAlpha - 1, terms = shapes.terms();
-  Grid fitted({kStretchedCoatAlpha, kStretchedCoatIndex, kStretchedCoatDirection, terms},
-              [](const double*) { return 0.0; });  // as it is of mirrors
+  const auto none = [](const double*) { return 0.0; };  // as it is of mirrors
+  const std::vector<int> nodes{kStretchedCoatAlpha, kStretchedCoatIndex, kStretchedCoatDirection,
+                               terms};
+  Grid coat(nodes, none), coated(nodes, none);
   parallel(steps, [&](int k) {
     const double place = (k + 1.0) / steps;
-    const auto values = differences<Distribution>(shapes, place * place * place, round);
-    double* to = &fitted.values[(k + 1) * values.size() * terms];
-    for (const Values& of_shapes : values)
-      for (int t = 0; t < terms; ++t) *to++ = shapes.term(t, of_shapes.data());
+    const auto all =
+        differences<Distribution>(shapes, place * place * place, round_coat, round_coated);
+    const auto fit = [&](const std::vector<Values>& values, Grid& to) {
+      double* p = &to.values[(k + 1) * values.size() * terms];
+      for (const Values& of_shapes : values)
+        for (int t = 0; t < terms; ++t) *p++ = shapes.term(t, of_shapes.data());
+    };
+    fit(all.coat, coat);
+    fit(all.coated, coated);
   });
-  const Values spline = fitted.spline(1);
-  return {spline.begin(), spline.end()};
+  const auto spline = [](const Grid& fitted) {
+    const Values coefficients = fitted.spline(1);
+    return std::vector<float>(coefficients.begin(), coefficients.end());
+  };
+  return {spline(coat), spline(coated)};
 }
 
-template std::vector<float> stretched_coats<Ggx>(const float*);
-template std::vector<float> stretched_coats<Beckmann>(const float*);
+template StretchedTables stretched_coats<Ggx>(const float*, const float*);
+template StretchedTables stretched_coats<Beckmann>(const float*, const float*);
 
 }  // namespace mms::materials::tables
