@@ -253,7 +253,7 @@ void Integrator::follow(Flight& f, const Vertex& v, Vec3d direction) const {
 }
 
 /// Lights a vertex, and sends the path on.
-void Integrator::scatter(const Vertex& v, Scatterer s) {
+void Integrator::scatter(const Vertex& v, Scatterer&& s) {
   Path& p = paths_[v.from->path];
   if (++p.depth > world_.max_depth) return;
   if (s.divides() && p.specular++ < kDivisions) return go_all_ways(v, s);

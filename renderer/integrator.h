@@ -100,7 +100,7 @@ class Integrator {
   void gather();
   void ask_surroundings();
   void shade(std::span<const Vertex> group);
-  void scatter(const Vertex& v, Scatterer s);
+  void scatter(const Vertex& v, Scatterer&& s);  ///< which is large
   void go_all_ways(const Vertex& v, const Scatterer& s);
   void go_on(const Vertex& v, const Scatterer& s, int draws);
   void go_to_image(const Vertex& v, const Scatterer& s, int draws);
