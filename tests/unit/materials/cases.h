@@ -77,6 +77,9 @@ inline std::vector<Case> smooth_cases() {
   put("coat absorbing", coat(glossy(1, 40), matte(ramp(0.9, 0.5)), 0.5, ramp(0.1, 2), 1.5));
   put("coat over facets", coat(mirror(1), conductor(ramp(0.2, 1.3), ramp(3.4, 2.1), 0.4), 0.2,
                                ramp(0.1, 1), ramp(1.6, 1.4)));
+  put("coat of stretched facets",
+      coat(scale(microfacet(1, 0.5, 0.8), ramp(1, 0.6)),
+           mix(matte(ramp(0.2, 0.8)), glossy(1, 20), 0.3), 0.2, ramp(0.1, 1), ramp(1.6, 1.4)));
   put("layer", layer(tinted(Lobe::Sheen, ramp(0.3, 0.9), {0.4}),
                      fresnel_mix(matte(0.8), glossy(1, 40), 1.5), 0.7));
   put("mix", mix(matte(ramp(0.1, 0.9)), glossy(1, 20), ramp(0.2, 0.7)));
