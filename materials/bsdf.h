@@ -271,12 +271,12 @@ typename Bsdf<R>::Choice Bsdf<R>::choose(Vec3<R> wo) const {
   find_coats(*layout_, params_, wo, choice.coats);
   for (int i = 0; i < node_count(); ++i) {
     const CoatAbove<R>& coat = choice.coats.of[i];
-    if (!coat.lobe.known()) continue;
+    if (!coat.kind.round) continue;
     with_model(i, 0, [&](const auto& model) {
       if constexpr (requires { model.coated(wo); }) {
         const CoatedLobe<R> lobe = model.coated(wo);
         if (under_rough_coat(coat, lobe) && !detail::is_specular(model))
-          choice.under.of[i].solve(lobe, coat.lobe, coat.ior);
+          choice.under.of[i].solve(lobe, coat_parts(*layout_, params_, coat.kind).span(), coat.ior);
       }
       return 0;
     });
@@ -313,7 +313,8 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
         total.pdf += l.pdf * choice.probability.of[i];
         if constexpr (requires { model.coated(wo); }) {
           const CoatAbove<R>& coat = choice.coats.of[i];
-          if (coat.ior && !(share > 0 && (coat.nested || coat.lobe.stretched()))) {
+          const bool solved = coat.kind.round || !coat.kind.known();
+          if (coat.ior && (share == 0 || (solved && !coat.nested))) {
             total.f += l.f * coated_weight(weights.of[i], coat, choice.under.of[i],
                                            model.coated(wo), model.coated(wi), wo.z, wi.z);
             return 0;

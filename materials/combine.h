@@ -23,9 +23,9 @@
 /// over a Lambert base is 1 exactly; but near grazing a broad coat loses much: min(F, F') is small
 /// where F' is.
 ///
-/// Where the coat is one `glossy`, `microfacet` or `beckmann`, scaled or not, and the index above
-/// 1, what it reflects is known: with M(wo) the mean of F' over what it scatters
-/// (materials/coat_lobe.h) its factor is
+/// Where the coat is `glossy`, `microfacet` or `beckmann`, or what `mix`, `scale` and `add` make of
+/// these and of mirrors, and the index above 1, what it reflects is known: with M(wo) the mean of
+/// F' over what it scatters (materials/coat_lobe.h) its factor is
 ///   coat: (F + F') / 2          which reflects E(wo) = (F + M(wo)) / 2
 ///   base: 1 - max(E, E')        or, for the Lambert lobes right below it,
 ///         (1 - E)(1 - E') / (1 - mean F)   as the means of E and F are the same
@@ -34,7 +34,7 @@
 ///
 /// Under a coat that is not stretched, facets that are round, `glossy` and `rough_matte` get
 /// g(wo) g(wi) for T = 1 - E there (materials/rough_coat.h), within 1e-4. Stretched facets, and all
-/// of these under stretched ones, get 1 - max(E, E').
+/// of these under stretched ones, get 1 - max(E, E'), as under a mixture that is coloured.
 ///
 /// Where a coat lies under such a coat, or a polished one (of T = 1 - F, or 1 - E where that is
 /// rough; it may be plastic under varnish), the Lambert lobes right below both get the product of
@@ -57,9 +57,11 @@
 /// second factor, as the first is not symmetric. E is known of `sheen` (materials/sheen.h); of all
 /// else it is taken for the weight: a mixture.
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "materials/coated.h"
 #include "materials/facets.h"
@@ -86,12 +88,32 @@ struct NodeWeight {
   }
 };
 
+/// What is known of a coat's own lobes. Of a mirror, and of what is not, all is as if polished.
+template <class R>
+struct CoatKind {
+  CoatLobe<R> lobe{};  ///< where there is one
+  int mixture = -1;    ///< where there are several, the node that they are the children of
+  bool round = false;  ///< known, and not stretched; of several, also the same at each wavelength
+
+  bool known() const { return lobe.known() || mixture >= 0; }
+};
+
+/// The lobes of a coat whose kind is round.
+template <class R>
+struct CoatParts {
+  static constexpr int kMost = 4;
+  std::array<CoatPart<R>, kMost> parts;
+  int count = 0;
+
+  std::span<const CoatPart<R>> span() const { return {parts.data(), std::size_t(count)}; }
+};
+
 /// The coat right above a node, where light is seen along one direction.
 template <class R>
 struct CoatAbove {
   const R* ior = nullptr;  ///< its indices; null: there is none
-  CoatLobe<R> lobe{};      ///< its own, where it is known
-  bool nested = false;     ///< there is a second coat right above that one
+  CoatKind<R> kind{};
+  bool nested = false;  ///< there is a second coat right above that one
   CoatAlong<R> o{};
 };
 
@@ -104,30 +126,6 @@ union PerNode {
 
 namespace detail {
 
-/// The lobe of the child `node` where it is one whose spread is known and no mirror.
-template <class R>
-inline CoatLobe<R> coat_lobe(const Layout& layout, const R* params, int node) {
-  const Layout::Node& n = layout.nodes()[node];
-  const R* p = params + n.first_param;
-  const auto facets = [](const auto& model) {
-    return model.specular() ? CoatLobe<R>() : model.rough.coat();
-  };
-  switch (n.lobe) {
-    case Lobe::Scale:
-      return coat_lobe(layout, params, n.children[0]);
-    case Lobe::Glossy: {
-      const R gloss = non_negative(p[kWavelengths]);
-      return gloss <= R(axes::kLargestGloss) ? CoatLobe<R>::glossy(gloss) : CoatLobe<R>();
-    }
-    case Lobe::Microfacet:
-      return facets(Microfacet<R>(p));
-    case Lobe::Beckmann:
-      return facets(BeckmannMirror<R>(p));
-    default:
-      return {};
-  }
-}
-
 /// The mean of what a coat of relative index `eta` lets through; under another of index `above`,
 /// of the product of what both do.
 template <class R>
@@ -138,10 +136,9 @@ inline R mean_through(R eta, R above) {
 }
 
 template <class R>
-inline void weigh_fresnel_mix(const CoatAbove<R>& mix, const R* ior_above, Vec3<R> wi,
+inline void weigh_fresnel_mix(const CoatAbove<R>& mix, const CoatAlong<R>& i, const R* ior_above,
                               const NodeWeight<R>& w, NodeWeight<R>& base, NodeWeight<R>& coat) {
   const CoatAlong<R>& o = mix.o;
-  const CoatAlong<R> i(mix.ior, mix.lobe, wi);
   R kept = 1, last_above = 0;
   Spectrum<R> reflects;
   for_each_index(mix.ior, [&](int j, bool repeated) {
@@ -151,7 +148,7 @@ inline void weigh_fresnel_mix(const CoatAbove<R>& mix, const R* ior_above, Vec3<
     if (!repeated || above != last_above) kept = mean_through(eta, above);
     last_above = above;
     const R through = o.through[j] * i.through[j];
-    reflects[j] = mix.lobe.known() && eta > 1 ? (o.reflected[j] + i.reflected[j]) / 2
+    reflects[j] = mix.kind.known() && eta > 1 ? (o.reflected[j] + i.reflected[j]) / 2
                                               : std::min(o.reflected[j], i.reflected[j]);
     base.other[j] = w.other[j] * std::min(o.through[j], i.through[j]);
     // Elsewhere the factor of a mix above stays in its bounded form: w.other, not w.lambert.
@@ -164,12 +161,12 @@ inline void weigh_fresnel_mix(const CoatAbove<R>& mix, const R* ior_above, Vec3<
 
 /// Roughly how a coat splits what comes along `cos_o`.
 template <class R>
-inline void choose_fresnel_mix(const R* ior, const CoatLobe<R>& lobe, R cos_o,
+inline void choose_fresnel_mix(const R* ior, const CoatKind<R>& kind, R cos_o,
                                Spectrum<R>& reflected, Spectrum<R>& transmitted) {
   const InterfaceSplits<R> s(ior, Vec3<R>{0, 0, 1}, cos_o);
   reflected = s.reflected;
   transmitted = s.transmitted;
-  if (!lobe.known()) return;
+  if (!kind.known()) return;
   for (int j = 0; j < kWavelengths; ++j) {
     const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
     if (!(eta > 1)) continue;
@@ -243,7 +240,111 @@ inline bool weigh_by_numbers(const Layout::Node& node, const R* p, int i, Weight
   }
 }
 
+/// The lobe of a node if it is one whose spread is known; a mirror has no tables.
+template <class R>
+inline std::optional<CoatLobe<R>> coat_lobe(const Layout::Node& node, const R* p) {
+  const auto facets = [](const auto& model) {
+    return model.specular() ? CoatLobe<R>() : model.rough.coat();
+  };
+  switch (node.lobe) {
+    case Lobe::Mirror:
+      return CoatLobe<R>();
+    case Lobe::Glossy: {
+      const R gloss = non_negative(p[kWavelengths]);
+      return gloss <= R(axes::kLargestGloss) ? CoatLobe<R>::glossy(gloss) : CoatLobe<R>();
+    }
+    case Lobe::Microfacet:
+      return facets(Microfacet<R>(p));
+    case Lobe::Beckmann:
+      return facets(BeckmannMirror<R>(p));
+    default:
+      return {};
+  }
+}
+
+/// Calls `visit(lobe, weight)` for what a coat, the child `node`, is a sum of, the colours being in
+/// the weights; whether all of it is known. `weights` holds that of `node`.
+template <class R, class Visit>
+inline bool for_each_coat_lobe(const Layout& layout, const R* params, int node,
+                               PerNode<Spectrum<R>>& weights, Visit visit) {
+  const Layout::Node& n = layout.nodes()[node];
+  const R* p = params + n.first_param;
+  if (weigh_by_numbers(n, p, node, weights.of.data())) {
+    for (int c = 0; c < n.child_count; ++c)
+      if (!for_each_coat_lobe(layout, params, n.children[c], weights, visit)) return false;
+    return true;
+  }
+  const auto lobe = coat_lobe(n, p);
+  if (lobe)
+    visit(*lobe, Spectrum<R>::map([](R x) { return limited(x, R(0), R(1e18)); },
+                                  weights.of[node] * weight_at(p)));
+  return lobe.has_value();
+}
+
+/// Of the coat that is the child `node`.
+template <class R>
+inline CoatKind<R> coat_kind(const Layout& layout, const R* params, int node) {
+  CoatLobe<R> last;
+  int count = 0;
+  R sum = 0;
+  bool rough = false, stretched = false, uneven = false;
+  PerNode<Spectrum<R>> weights;
+  weights.of[node] = Spectrum<R>(R(1));
+  const bool known =
+      for_each_coat_lobe(layout, params, node, weights, [&](const auto& lobe, const auto& weight) {
+        last = lobe;
+        ++count;
+        rough |= lobe.known();
+        stretched |= lobe.stretched();
+        uneven |= std::count(weight.v.begin(), weight.v.end(), weight[0]) != kWavelengths;
+        sum += weight[0];
+      });
+  if (!known || !rough) return {};
+  if (count == 1) return {last, -1, !stretched};
+  return {{}, node, !stretched && !uneven && sum > 0 && count <= CoatParts<R>::kMost};
+}
+
+/// What a coat does along `w`: that of several lobes the mean of what they would, by their weights.
+template <class R>
+inline CoatAlong<R> coat_along(const Layout& layout, const R* params, const R* ior,
+                               const CoatKind<R>& kind, Vec3<R> w) {
+  if (kind.mixture < 0) return {ior, kind.lobe, w};
+  CoatAlong<R> all;
+  Spectrum<R> sum;
+  PerNode<Spectrum<R>> weights;
+  weights.of[kind.mixture] = Spectrum<R>(R(1));
+  for_each_coat_lobe(layout, params, kind.mixture, weights,
+                     [&](const CoatLobe<R>& lobe, const Spectrum<R>& weight) {
+                       const CoatAlong<R> one(ior, lobe, w);
+                       all.reflected = one.reflected;
+                       all.through += weight * one.through;
+                       sum += weight;
+                     });
+  for (int j = 0; j < kWavelengths; ++j)
+    all.through[j] = sum[j] > 0 ? all.through[j] / sum[j] : 1 - all.reflected[j];
+  return all;
+}
+
 }  // namespace detail
+
+template <class R>
+inline CoatParts<R> coat_parts(const Layout& layout, const R* params, const CoatKind<R>& kind) {
+  CoatParts<R> all;
+  if (kind.mixture < 0) {
+    all.parts[all.count++] = {kind.lobe, 1};
+    return all;
+  }
+  R sum = 0;
+  PerNode<Spectrum<R>> weights;
+  weights.of[kind.mixture] = Spectrum<R>(R(1));
+  detail::for_each_coat_lobe(layout, params, kind.mixture, weights,
+                             [&](const auto& lobe, const auto& weight) {
+                               all.parts[all.count++] = {lobe, weight[0]};
+                               sum += weight[0];
+                             });
+  for (int k = 0; k < all.count; ++k) all.parts[k].share /= sum;
+  return all;
+}
 
 /// The coats right above every node, where light is seen along `wo`.
 template <class R>
@@ -258,8 +359,9 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
     for (int c = 0; c < node.child_count; ++c) above[node.children[c]] = above[i];
     const int a = node.children[0], b = node.children[1];
     const auto coated = [&](int base, int coat, const R* ior) {
-      const CoatLobe<R> lobe = detail::coat_lobe(layout, params, coat);
-      above[base] = {ior, lobe, above[i].ior != nullptr, {ior, lobe, wo}};
+      const CoatKind<R> kind = detail::coat_kind(layout, params, coat);
+      above[base] = {ior, kind, above[i].ior != nullptr,
+                     detail::coat_along(layout, params, ior, kind, wo)};
     };
     if (node.lobe == Lobe::FresnelMix)
       coated(a, b, p);
@@ -276,6 +378,9 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
                   Vec3<R> wo, Vec3<R> wi, Mode mode, PerNode<NodeWeight<R>>& weights) {
   const auto nodes = layout.nodes();
   const R cos_o = std::abs(wo.z), cos_i = std::abs(wi.z);
+  const auto along = [&](const CoatAbove<R>& coat) {
+    return detail::coat_along(layout, params, coat.ior, coat.kind, wi);
+  };
   auto& w = weights.of;
   w[nodes.size() - 1] = NodeWeight<R>{};
   for (int i = int(nodes.size()) - 1; i >= 0; --i) {
@@ -295,10 +400,12 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
         break;
       }
       case Lobe::FresnelMix:
-        detail::weigh_fresnel_mix(coats.of[a], coats.of[i].ior, wi, w[i], w[a], w[b]);
+        detail::weigh_fresnel_mix(coats.of[a], along(coats.of[a]), coats.of[i].ior, w[i], w[a],
+                                  w[b]);
         break;
       case Lobe::Coat:
-        detail::weigh_fresnel_mix(coats.of[b], coats.of[i].ior, wi, w[i], w[b], w[a]);
+        detail::weigh_fresnel_mix(coats.of[b], along(coats.of[b]), coats.of[i].ior, w[i], w[b],
+                                  w[a]);
         detail::dim_by_layer(p, cos_o, cos_i, [&](int j, R through) {
           w[b].other[j] *= through;
           w[b].lambert[j] *= through;
@@ -314,7 +421,7 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
 /// Whether materials/rough_coat.h is asked for a lobe under that coat.
 template <class R>
 inline bool under_rough_coat(const CoatAbove<R>& coat, const CoatedLobe<R>& lobe) {
-  return coat.lobe.known() && !coat.lobe.stretched() && !lobe.stretched();
+  return coat.kind.round && !lobe.stretched();
 }
 
 /// The factor for a lobe right below a coat, from those of its node; `o` and `i` are the lobe along
@@ -324,7 +431,7 @@ inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const CoatAbove<R>& coa
                                  const UnderRoughCoat<R>& under, const CoatedLobe<R>& o,
                                  const CoatedLobe<R>& i, R cos_o, R cos_i) {
   const bool rough = under_rough_coat(coat, o);
-  if (coat.lobe.known() && !rough) return w.other;  // of stretched facets no more is known
+  if (coat.kind.known() && !rough) return w.other;  // no more is known
   cos_o = std::min(std::abs(cos_o), R(1));
   cos_i = std::min(std::abs(cos_i), R(1));
   typename UnderRoughCoat<R>::Along along_o, along_i;
@@ -368,7 +475,7 @@ inline void weigh_for_choice(const Layout& layout, const R* params, R cos_o,
       }
       case Lobe::FresnelMix: {
         Spectrum<R> reflected, transmitted;
-        detail::choose_fresnel_mix(p, detail::coat_lobe(layout, params, b), cos_o, reflected,
+        detail::choose_fresnel_mix(p, detail::coat_kind(layout, params, b), cos_o, reflected,
                                    transmitted);
         w[a] = w[i] * transmitted;
         w[b] = w[i] * reflected;
@@ -376,7 +483,7 @@ inline void weigh_for_choice(const Layout& layout, const R* params, R cos_o,
       }
       case Lobe::Coat: {
         Spectrum<R> reflected, transmitted;
-        detail::choose_fresnel_mix(p + 1 + kWavelengths, detail::coat_lobe(layout, params, a),
+        detail::choose_fresnel_mix(p + 1 + kWavelengths, detail::coat_kind(layout, params, a),
                                    cos_o, reflected, transmitted);
         w[a] = w[i] * reflected;
         w[b] = w[i] * transmitted;

@@ -4,14 +4,15 @@
 /// \file
 /// What lobes are scaled by under a coat whose own lobe is rough: G of materials/coated.h, solved
 /// for once where light is seen along one direction, at few directions with polynomials between.
-/// White facets, `glossy` and `rough_matte` below a white `glossy`, `microfacet` or `beckmann`, none
-/// of them stretched, keep their energy within 1e-4, for indices from 1.02 to 4 (next to a mirror,
-/// of a roughness below 0.1, 1e-3; above 4, 2e-3).
+/// White facets, `glossy` and `rough_matte` below a white `glossy`, `microfacet` or `beckmann`,
+/// none of them stretched, keep their energy within 1e-4, for indices from 1.02 to 4 (next to a
+/// mirror, of a roughness below 0.1, 1e-3; above 4, 2e-3).
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "base/spectrum.h"
 #include "base/warp.h"
@@ -54,6 +55,13 @@ struct SpreadPoints {
   }
 };
 
+/// One lobe of a coat, not stretched, and how much of the coat it is. A mirror has no tables.
+template <class R>
+struct CoatPart {
+  CoatLobe<R> lobe{};
+  R share = 1;
+};
+
 /// G of lobes that are not stretched, under one rough coat.
 template <class R>
 class UnderRoughCoat {
@@ -64,7 +72,7 @@ class UnderRoughCoat {
  public:
   /// For the coat's index of each wavelength, `ior`; where that is above 1. Of three indices if
   /// they differ, with quadratics between.
-  void solve(const CoatedLobe<R>& base, const CoatLobe<R>& coat, const R* ior) {
+  void solve(const CoatedLobe<R>& base, std::span<const CoatPart<R>> coat, const R* ior) {
     R place[kWavelengths], least = 1, most = 0;
     for_each_index(ior, [&](int j, bool) {
       const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
@@ -136,13 +144,22 @@ class UnderRoughCoat {
 
   /// 1 - E of the coat of an index at `place`, along directions of |cosine| z and the
   /// axes::coat_direction d.
+  static Values let_through(std::span<const CoatPart<R>> coat, R place, const Values& z,
+                            const Values& d) {
+    Values through{};
+    for (const CoatPart<R>& part : coat) {
+      const Values of_part = let_through(part.lobe, place, z, d);
+      for (int k = 0; k < kDirections; ++k) through[k] += part.share * of_part[k];
+    }
+    return through;
+  }
   static Values let_through(const CoatLobe<R>& coat, R place, const Values& z, const Values& d) {
     using namespace axes;
     const R x = std::min(place * place * place * place, R(1 - 1e-6)), eta = (1 + x) / (1 - x);
     const auto n = Stencil<R>::at(place, kCoatIndex);
     constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatIndex);
     R line[n1] = {};
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; coat.known() && i < 4; ++i)
       for (int j = 0; j < 4; ++j) {
         const float* p = coat.tables->round + (coat.width.first + i) * n0 + (n.first + j) * n1;
         for (int k = 0; k < n1; ++k) line[k] += coat.width.weight[i] * n.weight[j] * R(p[k]);

@@ -122,7 +122,7 @@ TEST_CASE("a matte under a stretched coat keeps its energy") {
     for (double anisotropy : {0.3, -0.6, 0.9}) {
       if (kSanitized && anisotropy > 0.8) continue;  // too few panels
       Range range;
-      for (int k = 1; k <= (kSanitized ? 4 : 60); ++k) {
+      for (int k = 1; k <= (kSanitized ? 4 : 40); ++k) {
         const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
         const double ior = 1.02 * std::pow(4 / 1.02, place(0.5497));
         const Material top = row.make(0.2 + 0.8 * place(0.6710), anisotropy);
@@ -134,6 +134,55 @@ TEST_CASE("a matte under a stretched coat keeps its energy") {
       MESSAGE("matte under ", row.name, " of anisotropy ", anisotropy, ": albedo from ",
               range.least, " to ", range.most);
     }
+}
+
+TEST_CASE("a matte under a coat of several lobes keeps its energy, and others lose little") {
+  struct Row {
+    std::string name;
+    Material (*make)(double x, double y);
+    double mirrored;     ///< the share of mirrors
+    double facets_keep;  ///< at least, below it
+  };
+  static constexpr auto roughness = [](double x) { return 0.2 + 0.8 * x; };
+  const Row rows[] = {
+      {"two facets",
+       [](double x, double y) {
+         return mix(microfacet(1, roughness(x)), microfacet(1, roughness(y)), 0.4);
+       },
+       0, 1 - 1e-4},
+      {"a mirror and glossy",
+       [](double x, double) { return mix(mirror(1), glossy(1, 1000 * x * x), 0.3); }, 0.7,
+       1 - 1e-4},
+      {"a sum of three",
+       [](double x, double y) {
+         return add(scale(beckmann(1, roughness(x)), 0.2),
+                    add(scale(glossy(1, 1000 * y * y), 0.3),
+                        scale(microfacet(1, roughness(y), 0.6), 0.5)));
+       },
+       0, 0.95}};
+  for (const Row& row : rows) {
+    Range matte_below, facets_below;
+    for (int k = 1; k <= (kSanitized ? 2 : 20); ++k) {
+      const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
+      const double ior = 1.02 * std::pow(4 / 1.02, place(0.5497));
+      const double degrees = kAngles[k % std::size(kAngles)];
+      const double azimuth = kPi<double> / 2 * place(0.4503);
+      const Material top = row.make(place(0.6710), place(0.3019));
+      const double mirrored =
+          row.mirrored * materials::fresnel_dielectric(direction(degrees, azimuth).z, ior);
+      const auto both = [&](const Material& base) {
+        return albedo(coat(top, base, 0, 0, ior), degrees, azimuth, 14) + mirrored;
+      };
+      matte_below.add(both(matte(1)));
+      facets_below.add(both(microfacet(1, roughness(place(0.7549)))));
+    }
+    CHECK_MESSAGE(matte_below.least > 1 - 3e-4, row.name);
+    CHECK_MESSAGE(matte_below.most < 1 + 3e-4, row.name);
+    CHECK_MESSAGE(facets_below.least > row.facets_keep, row.name);
+    CHECK_MESSAGE(facets_below.most < 1 + 3e-4, row.name);
+    MESSAGE("under ", row.name, ": matte from ", matte_below.least, " to ", matte_below.most,
+            ", facets from ", facets_below.least, " to ", facets_below.most);
+  }
 }
 
 TEST_CASE("plastic under a polished coat loses little, and never gains") {

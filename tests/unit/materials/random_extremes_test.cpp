@@ -64,7 +64,32 @@ Vec3<float> any_direction(stats::Random& random, Vec3<float> other) {
   }
 }
 
-/// The model alone; of combiners, over two lobes.
+/// What a combiner is given; `layered`: what a layer has on top.
+Material any_child(bool layered, stats::Random& random) {
+  const double x = random.next(), y = 2 * random.next() - 1, gloss = std::pow(10, 6 * x - 1);
+  switch (int(random.next() * (layered ? 10 : 8))) {
+    case 0:
+      return mirror(1);
+    case 1:
+      return glossy(1, gloss);
+    case 2:
+      return microfacet(1, x, y);
+    case 3:
+      return beckmann(1, x, y);
+    case 4:
+      return mix(mirror(1), microfacet(1, x), std::abs(y));
+    case 5:
+      return scale(add(glossy(1, gloss), beckmann(1, std::abs(y))), 0.5);
+    case 6:
+      return tinted(Lobe::RoughMatte, 1, {x});
+    case 7:
+      return matte(1);
+    default:
+      return tinted(Lobe::Sheen, 1, {any_number(random)});
+  }
+}
+
+/// The model alone; of combiners, over any children.
 Material any_material(Lobe lobe, stats::Random& random) {
   const auto& f = materials::formals(lobe);
   Material m;
@@ -72,11 +97,7 @@ Material any_material(Lobe lobe, stats::Random& random) {
   n.lobe = int(lobe);
   for (int i = 0; i < f.count; ++i) {
     if (f.kinds[i] == 'm') {
-      const bool polished = random.next() < 0.3;
-      append(m, i > 0                 ? matte(1)
-                : polished            ? mirror(1)
-                : lobe == Lobe::Layer ? tinted(Lobe::Sheen, 1, {any_number(random)})
-                                      : glossy(1, std::pow(10, 6 * random.next() - 1)));
+      append(m, any_child(lobe == Lobe::Layer && i == 0, random));
       n.children.push_back(std::uint32_t(m.tree.nodes.size() - 1));
       continue;
     }
