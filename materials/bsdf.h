@@ -73,13 +73,20 @@ class Bsdf {
 
   /// How likely each lobe is chosen, for each wavelength as the hero.
   struct Choice {
-    PerNode<Spectrum<R>> probability;  ///< of lobes only
-    bool any = false;                  ///< the hero has something to choose from
-    PerNode<CoatAbove<R>> coats;       ///< where there is more than one node
-    PerNode<UnderRoughCoat<R>> under;  ///< of lobes of which `under_rough_coat` is true
+    PerNode<Spectrum<R>> probability;    ///< of lobes only
+    bool any = false;                    ///< the hero has something to choose from
+    PerNode<CoatAbove<R>> coats;         ///< where there is more than one node
+    SolvedPerNode<LowerCoat<R>> lower;   ///< of nodes whose `coats` says so
+    SolvedPerNode<UnderCoats<R>> under;  ///< of lobes of which `solved_under` is true
   };
-  /// For all that comes along `wo`: made once where one `wo` meets many `wi`.
-  Choice choose(Vec3<R> wo) const;
+  /// For all that comes along `wo`: made once where one `wo` meets many `wi`. What a choice was
+  /// before, of any material, saves time where coats are the same.
+  void choose(Vec3<R> wo, Choice& choice) const;
+  Choice choose(Vec3<R> wo) const {
+    Choice choice;
+    choose(wo, choice);
+    return choice;
+  }
 
   /// `eval` and `pdf` at once, for about the price of one.
   Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode) const {
@@ -245,9 +252,9 @@ bool Bsdf<R>::specular_only() const {
 }
 
 template <class R>
-typename Bsdf<R>::Choice Bsdf<R>::choose(Vec3<R> wo) const {
-  Choice choice;
-  if (node_count() == 0 || in_surface(wo)) return choice;
+void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
+  choice.any = false;
+  if (node_count() == 0 || in_surface(wo)) return;
   auto& probability = choice.probability.of;
   const auto estimate = [&](int i) {
     return with_model(i, Spectrum<R>(), [&](const auto& m) { return m.estimate(wo); });
@@ -257,7 +264,7 @@ typename Bsdf<R>::Choice Bsdf<R>::choose(Vec3<R> wo) const {
   if (node_count() == 1) {
     probability[0] = Spectrum<R>::map([](R x) { return R(x > least); }, estimate(0));
     choice.any = probability[0][0] > 0;
-    return choice;
+    return;
   }
   Spectrum<R> sum;
   weigh_for_choice(*layout_, params_, std::abs(wo.z), choice.probability);
@@ -268,20 +275,21 @@ typename Bsdf<R>::Choice Bsdf<R>::choose(Vec3<R> wo) const {
   for (int j = 0; j < kWavelengths; ++j) sum[j] = sum[j] > least ? 1 / sum[j] : R(0);
   for (int i = 0; i < node_count(); ++i) probability[i] *= sum;
   choice.any = sum[0] > 0;
-  find_coats(*layout_, params_, wo, choice.coats);
+  find_coats(*layout_, params_, wo, choice.coats, choice.lower);
   for (int i = 0; i < node_count(); ++i) {
     const CoatAbove<R>& coat = choice.coats.of[i];
-    if (!coat.kind.round) continue;
+    if (!coat.kind.round && coat.lower < 0) continue;
     with_model(i, 0, [&](const auto& model) {
       if constexpr (requires { model.coated(wo); }) {
         const CoatedLobe<R> lobe = model.coated(wo);
-        if (under_rough_coat(coat, lobe) && !detail::is_specular(model))
-          choice.under.of[i].solve(lobe, coat_parts(*layout_, params_, coat.kind).span(), coat.ior);
+        if (!solved_under(coat, lobe) || detail::is_specular(model)) return 0;
+        const LowerCoat<R>* lower = coat.lower >= 0 ? &choice.lower[coat.lower] : nullptr;
+        choice.under.solve(i, lobe, lower ? lower->coats() : coats_above(*layout_, params_, coat),
+                           lower);
       }
       return 0;
     });
   }
-  return choice;
 }
 
 template <class R>
@@ -302,7 +310,7 @@ template <class R>
 Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const {
   Lobes<R> total;
   PerNode<NodeWeight<R>> weights;
-  weigh(*layout_, params_, choice.coats, wo, wi, mode, weights);
+  weigh(*layout_, params_, choice.coats, choice.lower, wo, wi, mode, weights);
   for (int i = 0; i < node_count(); ++i) {
     with_model(i, 0, [&](const auto& model) {
       using Model = std::decay_t<decltype(model)>;
@@ -313,9 +321,8 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
         total.pdf += l.pdf * choice.probability.of[i];
         if constexpr (requires { model.coated(wo); }) {
           const CoatAbove<R>& coat = choice.coats.of[i];
-          const bool solved = coat.kind.round || !coat.kind.known();
-          if (coat.ior && (share == 0 || (solved && !coat.nested))) {
-            total.f += l.f * coated_weight(weights.of[i], coat, choice.under.of[i],
+          if (coat.ior && (share == 0 || coat.solvable())) {
+            total.f += l.f * coated_weight(weights.of[i], coat, choice.lower, choice.under[i],
                                            model.coated(wo), model.coated(wi), wo.z, wi.z);
             return 0;
           }
@@ -396,7 +403,7 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u,
   if (node_count() == 1)
     weights.of[0] = {};
   else
-    weigh(*layout_, params_, choice.coats, wo, s.wi, mode, weights);
+    weigh(*layout_, params_, choice.coats, choice.lower, wo, s.wi, mode, weights);
   for (int i = 0; i < node_count(); ++i) {
     const SpecularTerms<R> t = i == lobe ? mine : terms_of(i);
     for (int j = 0; j < kWavelengths; ++j) {

@@ -30,12 +30,20 @@ template <class R>
 inline R stretched_coat_index(R eta) {
   return (index(eta) - R(kLeastCoatIndex)) / R(kMostCoatIndex - kLeastCoatIndex);
 }
+/// As wide as facets of axes::width are lobes of `glossy` of that.
+template <class R>
+inline R gloss_width(R gloss) {
+  return 1 / std::sqrt(1 + gloss);
+}
 }  // namespace axes
+
+struct CoatedTables;
 
 /// Of one kind of lobe, for relative indices above 1.
 struct CoatTables {
   const float* round;      ///< M - F: [width][index][direction]
   const float* stretched;  ///< of M: [root of both alphas][index][direction][term of ShapeBasis]
+  const CoatedTables* coated;  ///< of the same lobe, itself under a coat
 };
 extern const CoatTables kGgxCoat, kBeckmannCoat, kGlossyCoat;
 
@@ -113,15 +121,18 @@ template <class R>
 struct CoatLobe {
   const CoatTables* tables = nullptr;  ///< null: not known
   Stencil<R> width{};                  ///< of one that is not stretched
+  R cosines = 1;                       ///< that width as of axes::spread_direction
   R ax = 0, ay = 0;                    ///< of facets
 
   static CoatLobe glossy(R gloss) {
-    return {&kGlossyCoat, Stencil<R>::at(axes::gloss(gloss), axes::kGloss)};
+    return {&kGlossyCoat, Stencil<R>::at(axes::gloss(gloss), axes::kGloss),
+            axes::gloss_width(gloss)};
   }
   static CoatLobe facets(const CoatTables& tables, R ax, R ay) {
-    return {&tables, facet_width(ax), ax, ay};
+    return {&tables, facet_width(ax), axes::width(ax), ax, ay};
   }
 
+  bool operator==(const CoatLobe&) const = default;
   bool known() const { return tables; }
   bool stretched() const { return ax != ay; }
 

@@ -15,8 +15,9 @@
 ///
 /// Tables hold G^2 - T under a polished coat for each width, index above 1 and direction
 /// (materials/tables/coated.cpp): the energy of coat and base is 1 within 1e-4. Under a coat whose
-/// lobe is rough, T is 1 - E (materials/coat_lobe.h), of another width and an index; there G is
-/// solved for where it is needed, with K as a matrix over few directions (materials/rough_coat.h).
+/// lobe is rough, T is 1 - E (materials/coat_lobe.h), of another width and an index; there, and
+/// below two coats, G is solved for, with K as a matrix over few directions
+/// (materials/under_coats.h).
 ///
 /// For stretched facets under a polished coat another table says what theirs is above that of round
 /// ones as wide along the direction, as polynomials over the shape that they have along it
@@ -38,11 +39,6 @@ inline R spread_direction(R z, R width) {
   const R d = coat_direction(z), s = std::sqrt(std::max((1 - z) * (1 + z), R(0)));
   return R(0.35) * d * std::sqrt(d) + R(0.65) * direction(z, s, width);
 }
-/// That width of `glossy`.
-template <class R>
-inline R gloss_width(R gloss) {
-  return 1 / std::sqrt(1 + gloss);
-}
 }  // namespace axes
 
 /// Of one kind of lobe.
@@ -51,9 +47,9 @@ struct CoatedTables {
   const float* stretched;  ///< of `polished`, for stretched facets (materials/coat_lobe.h)
   /// [width][column][direction o]: int K l |cos i| di for each of axes::kSpread polynomials l over
   /// axes::spread_direction, which are 1 at one of the directions and 0 at the others. Then the
-  /// cosines of these directions, and their axes::coat_direction.
+  /// cosines of these directions, their axes::coat_direction, and int l 2 z dz of the polynomials.
   const float* spread;
-  static constexpr int kColumns = axes::kSpread + 2;
+  static constexpr int kColumns = axes::kSpread + 3;
 };
 extern const CoatedTables kGgxCoated, kBeckmannCoated, kGlossyCoated, kMatteCoated;
 
@@ -65,6 +61,15 @@ inline R mean_fresnel_product(R a, R b) {
   using namespace axes;
   const auto x = Stencil<R>::at(index(a), kCoatIndex), y = Stencil<R>::at(index(b), kCoatIndex);
   return interpolate(kFresnelProduct, x, coefficients(kCoatIndex), y);
+}
+
+/// Of the product of what two coats let through; of the first alone where there are not two indices
+/// above 1.
+template <class R>
+inline R mean_through(R eta, R above) {
+  const R through = mean_through(eta);
+  if (!(above > 1 && eta > 1)) return through;
+  return through - fresnel_dielectric_diffuse(above) + mean_fresnel_product(eta, above);
 }
 
 /// One lobe's width; of stretched facets, along one direction.
@@ -83,11 +88,19 @@ struct CoatedLobe {
     return {&kGlossyCoated, Stencil<R>::at(axes::gloss(gloss), axes::kGloss),
             axes::gloss_width(gloss)};
   }
+  /// That of a coat which lies under another. \pre known, and not stretched
+  static CoatedLobe of(const CoatLobe<R>& coat) {
+    return {coat.tables->coated, coat.width, coat.cosines};
+  }
   static CoatedLobe matte(R roughness) {
     return {&kMatteCoated, Stencil<R>::at(roughness, axes::kCoatedMatte)};
   }
 
   bool stretched() const { return along.table; }
+  /// Of lobes that are not stretched.
+  bool is_like(const CoatedLobe& other) const {
+    return tables == other.tables && width == other.width && cosines == other.cosines;
+  }
 
   /// G^2 - T along a direction of |cosine| `z`, for relative index `eta` > 1.
   R above(R eta, R z) const {

@@ -33,19 +33,18 @@
 /// stretched facets, within 3e-4.
 ///
 /// Under a coat that is not stretched, facets that are round, `glossy` and `rough_matte` get
-/// g(wo) g(wi) for T = 1 - E there (materials/rough_coat.h), within 1e-4. Stretched facets, and all
-/// of these under stretched ones, get 1 - max(E, E'), as under a mixture that is coloured.
+/// g(wo) g(wi) for T = 1 - E there (materials/under_coats.h), within 1e-4. Stretched facets, and
+/// all of these under stretched ones, get 1 - max(E, E'), as under a mixture that is coloured.
 ///
-/// Where a coat lies under such a coat, or a polished one (of T = 1 - F, or 1 - E where that is
-/// rough; it may be plastic under varnish), the Lambert lobes right below both get the product of
-/// what both let through over its own mean,
+/// Where a coat lies right under another, as plastic under varnish, its lobe gets what any does
+/// below the upper one, and S of what that lets through is left (materials/two_coats.h). If neither
+/// is stretched, and the lower one a single lobe or a mirror, what lies below both gets
+///   base: g(wo) g(wi) for T S   or, for the Lambert lobes, T S T' S' / mean (T S)
+/// and all is 1 within 1e-4. In other nests the Lambert lobes get, of the two coats nearest,
 ///   base: T T' (1 - E)(1 - E') / mean (1 - F_above)(1 - F_below)
-/// and the lower coat's lobe what any lobe below the upper one gets. Never more than 1; at
-/// most 1.3% is lost, by a lower coat that is broad. Of deeper nests, and of others, only the
-/// `fresnel_mix` nearest the Lambert lobe uses the product, for the same bound.
-///
-/// In a nest, `rough_matte` gets a share 1 - roughness / 4 of the product, the rest of the other
-/// factor: the largest that never gains (by quadrature over index and roughness).
+/// which is never more than 1 and loses at most 1.3%, by a lower coat that is broad; `rough_matte`
+/// a share 1 - roughness / 4 of it, the rest of the other factor: the largest that never gains (by
+/// quadrature over index and roughness). A coat whose index is 1 at every wavelength is not there.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`:
@@ -59,6 +58,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <limits>
 #include <optional>
 #include <span>
@@ -71,6 +71,8 @@
 #include "materials/microfacet.h"
 #include "materials/rough_coat.h"
 #include "materials/sheen.h"
+#include "materials/two_coats.h"
+#include "materials/under_coats.h"
 
 namespace mms::materials {
 
@@ -98,23 +100,18 @@ struct CoatKind {
   bool known() const { return lobe.known() || mixture >= 0; }
 };
 
-/// The lobes of a coat whose kind is round.
-template <class R>
-struct CoatParts {
-  static constexpr int kMost = 4;
-  std::array<CoatPart<R>, kMost> parts;
-  int count = 0;
-
-  std::span<const CoatPart<R>> span() const { return {parts.data(), std::size_t(count)}; }
-};
-
 /// The coat right above a node, where light is seen along one direction.
 template <class R>
 struct CoatAbove {
   const R* ior = nullptr;  ///< its indices; null: there is none
   CoatKind<R> kind{};
   bool nested = false;  ///< there is a second coat right above that one
+  int lower = -1;       ///< then the node of which materials/two_coats.h knows it
   CoatAlong<R> o{};
+  Spectrum<R> left_o{}, through_o{};  ///< what is left of light by this coat, and by all that count
+
+  /// Whether all that lies above is known to a lobe that is not stretched.
+  bool solvable() const { return nested ? lower >= 0 : kind.round || !kind.known(); }
 };
 
 /// One entry for each node of a layout; entries beyond it are not initialised.
@@ -124,38 +121,50 @@ union PerNode {
   std::array<T, kMaxNodes> of;
 };
 
+/// The same of what takes long to solve for: kept where the next time asks for no other.
+template <class T>
+struct SolvedPerNode {
+  PerNode<T> solution;
+  std::bitset<kMaxNodes> made;
+
+  template <class... Asked>
+  void solve(int node, const Asked&... asked) {
+    if (made[node] && solution.of[node].solves(asked...)) return;
+    solution.of[node].solve(asked...);
+    made.set(node);
+  }
+  const T& operator[](int node) const { return solution.of[node]; }
+};
+
 namespace detail {
 
-/// The mean of what a coat of relative index `eta` lets through; under another of index `above`,
-/// of the product of what both do.
 template <class R>
-inline R mean_through(R eta, R above) {
-  const R through = materials::mean_through(eta);
-  if (!(above > 1 && eta > 1)) return through;
-  return through - fresnel_dielectric_diffuse(above) + mean_fresnel_product(eta, above);
-}
-
-template <class R>
-inline void weigh_fresnel_mix(const CoatAbove<R>& mix, const CoatAlong<R>& i, const R* ior_above,
+inline void weigh_fresnel_mix(const CoatAbove<R>& mix, const LowerCoat<R>& lower,
+                              const CoatAlong<R>& i, R cos_i, const R* ior_above,
                               const NodeWeight<R>& w, NodeWeight<R>& base, NodeWeight<R>& coat) {
   const CoatAlong<R>& o = mix.o;
+  const bool solved = mix.lower >= 0;
+  const Spectrum<R> left_i = solved ? lower.along(i, cos_i) : i.through;
   R kept = 1, last_above = 0;
   Spectrum<R> reflects;
   for_each_index(mix.ior, [&](int j, bool repeated) {
     const R eta = relative_eta(mix.ior[j], Vec3<R>{0, 0, 1});
     const R above = ior_above ? relative_eta(ior_above[j], Vec3<R>{0, 0, 1}) : R(0);
-    const bool known = above > 1 && eta > 1;
-    if (!repeated || above != last_above) kept = mean_through(eta, above);
+    const bool both = above > 1 && eta > 1;
+    if (solved && both)
+      kept = lower.mean(j);
+    else if (!repeated || above != last_above)
+      kept = mean_through(eta, above);
     last_above = above;
-    const R through = o.through[j] * i.through[j];
+    const R left = mix.left_o[j] * left_i[j];
     reflects[j] = mix.kind.known() && eta > 1 ? (o.reflected[j] + i.reflected[j]) / 2
                                               : std::min(o.reflected[j], i.reflected[j]);
     base.other[j] = w.other[j] * std::min(o.through[j], i.through[j]);
     // Elsewhere the factor of a mix above stays in its bounded form: w.other, not w.lambert.
-    base.lambert[j] = kept > 0 ? (known ? w.coated[j] : w.other[j]) * through / kept : R(0);
-    base.coated[j] = w.other[j] * through;
+    base.lambert[j] = kept > 0 ? (both ? w.coated[j] : w.other[j]) * left / kept : R(0);
+    base.coated[j] = (solved && both ? w.coated[j] : w.other[j]) * left;
+    base.through_i[j] = (solved && both ? w.through_i[j] : R(1)) * left_i[j];
   });
-  base.through_i = i.through;
   coat = w * reflects;
 }
 
@@ -304,6 +313,13 @@ inline CoatKind<R> coat_kind(const Layout& layout, const R* params, int node) {
   return {{}, node, !stretched && !uneven && sum > 0 && count <= CoatParts<R>::kMost};
 }
 
+/// Whether materials/two_coats.h knows of a coat of that kind under another.
+template <class R>
+inline bool knows_lower(const CoatAbove<R>& above, const CoatKind<R>& kind) {
+  return above.ior && !above.nested && above.solvable() &&
+         (!kind.known() || (kind.round && kind.mixture < 0));
+}
+
 /// What a coat does along `w`: that of several lobes the mean of what they would, by their weights.
 template <class R>
 inline CoatAlong<R> coat_along(const Layout& layout, const R* params, const R* ior,
@@ -346,10 +362,21 @@ inline CoatParts<R> coat_parts(const Layout& layout, const R* params, const Coat
   return all;
 }
 
+/// `coat`, or another of a single lobe under it.
+template <class R>
+inline Coats<R> coats_above(const Layout& layout, const R* params, const CoatAbove<R>& coat,
+                            const CoatLobe<R>& lower = {}, const R* lower_ior = nullptr) {
+  Coats<R> coats{coat_parts(layout, params, coat.kind)};
+  std::copy_n(coat.ior, kWavelengths, coats.above_ior.begin());
+  coats.lower = lower;
+  if (lower_ior) std::copy_n(lower_ior, kWavelengths, coats.lower_ior.begin());
+  return coats;
+}
+
 /// The coats right above every node, where light is seen along `wo`.
 template <class R>
 inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
-                       PerNode<CoatAbove<R>>& coats) {
+                       PerNode<CoatAbove<R>>& coats, SolvedPerNode<LowerCoat<R>>& lower) {
   const auto nodes = layout.nodes();
   auto& above = coats.of;
   above[nodes.size() - 1] = {};
@@ -359,9 +386,19 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
     for (int c = 0; c < node.child_count; ++c) above[node.children[c]] = above[i];
     const int a = node.children[0], b = node.children[1];
     const auto coated = [&](int base, int coat, const R* ior) {
+      if (std::all_of(ior, ior + kWavelengths, [](R n) { return n == 1; })) return;
       const CoatKind<R> kind = detail::coat_kind(layout, params, coat);
-      above[base] = {ior, kind, above[i].ior != nullptr,
-                     detail::coat_along(layout, params, ior, kind, wo)};
+      CoatAbove<R>& below = above[base];
+      below = {ior, kind, above[i].ior != nullptr, -1,
+               detail::coat_along(layout, params, ior, kind, wo)};
+      below.left_o = below.through_o = below.o.through;
+      if (!detail::knows_lower(above[i], kind)) return;
+      below.lower = base;
+      lower.solve(base, coats_above(layout, params, above[i], kind.lobe, ior));
+      const LowerCoat<R>& two = lower[base];
+      below.left_o = two.along(below.o, std::abs(wo.z));
+      for (int j = 0; j < kWavelengths; ++j)
+        below.through_o[j] = below.left_o[j] * (two.known(j) ? above[i].o.through[j] : R(1));
     };
     if (node.lobe == Lobe::FresnelMix)
       coated(a, b, p);
@@ -375,11 +412,21 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
 /// Factors for the pair of directions, for every node.
 template <class R>
 inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove<R>>& coats,
-                  Vec3<R> wo, Vec3<R> wi, Mode mode, PerNode<NodeWeight<R>>& weights) {
+                  const SolvedPerNode<LowerCoat<R>>& lower, Vec3<R> wo, Vec3<R> wi, Mode mode,
+                  PerNode<NodeWeight<R>>& weights) {
   const auto nodes = layout.nodes();
   const R cos_o = std::abs(wo.z), cos_i = std::abs(wi.z);
-  const auto along = [&](const CoatAbove<R>& coat) {
-    return detail::coat_along(layout, params, coat.ior, coat.kind, wi);
+  const auto under_coat = [&](int i, int base, const R* ior, NodeWeight<R>& of_base,
+                              NodeWeight<R>& of_coat) {
+    const CoatAbove<R>& coat = coats.of[base];
+    if (coat.ior != ior) {  // there is none
+      of_base = weights.of[i];
+      of_coat = weights.of[i] * Spectrum<R>();
+      return;
+    }
+    detail::weigh_fresnel_mix(coat, lower[base],
+                              detail::coat_along(layout, params, coat.ior, coat.kind, wi), cos_i,
+                              coats.of[i].ior, weights.of[i], of_base, of_coat);
   };
   auto& w = weights.of;
   w[nodes.size() - 1] = NodeWeight<R>{};
@@ -400,12 +447,10 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
         break;
       }
       case Lobe::FresnelMix:
-        detail::weigh_fresnel_mix(coats.of[a], along(coats.of[a]), coats.of[i].ior, w[i], w[a],
-                                  w[b]);
+        under_coat(i, a, p, w[a], w[b]);
         break;
       case Lobe::Coat:
-        detail::weigh_fresnel_mix(coats.of[b], along(coats.of[b]), coats.of[i].ior, w[i], w[b],
-                                  w[a]);
+        under_coat(i, b, p + 1 + kWavelengths, w[b], w[a]);
         detail::dim_by_layer(p, cos_o, cos_i, [&](int j, R through) {
           w[b].other[j] *= through;
           w[b].lambert[j] *= through;
@@ -418,37 +463,39 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
   }
 }
 
-/// Whether materials/rough_coat.h is asked for a lobe under that coat.
+/// Whether materials/under_coats.h is asked for a lobe under that coat.
 template <class R>
-inline bool under_rough_coat(const CoatAbove<R>& coat, const CoatedLobe<R>& lobe) {
-  return coat.kind.round && !lobe.stretched();
+inline bool solved_under(const CoatAbove<R>& coat, const CoatedLobe<R>& lobe) {
+  return (coat.kind.round || coat.lower >= 0) && !lobe.stretched();
 }
 
 /// The factor for a lobe right below a coat, from those of its node; `o` and `i` are the lobe along
-/// the two directions, `under` what is known of it under a rough coat.
+/// the two directions, `under` what is solved for it.
 template <class R>
 inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const CoatAbove<R>& coat,
-                                 const UnderRoughCoat<R>& under, const CoatedLobe<R>& o,
+                                 const SolvedPerNode<LowerCoat<R>>& lower,
+                                 const UnderCoats<R>& under, const CoatedLobe<R>& o,
                                  const CoatedLobe<R>& i, R cos_o, R cos_i) {
-  const bool rough = under_rough_coat(coat, o);
-  if (coat.kind.known() && !rough) return w.other;  // no more is known
+  const bool solved = solved_under(coat, o);
+  if ((coat.kind.known() || coat.lower >= 0) && !solved) return w.other;  // no more is known
   cos_o = std::min(std::abs(cos_o), R(1));
   cos_i = std::min(std::abs(cos_i), R(1));
-  typename UnderRoughCoat<R>::Along along_o, along_i;
-  if (rough) along_o = under.along(o, cos_o), along_i = under.along(i, cos_i);
+  typename UnderCoats<R>::Along along_o, along_i;
+  if (solved) along_o = under.along(cos_o), along_i = under.along(cos_i);
   Spectrum<R> f;
   R scale = 0;
   for_each_index(coat.ior, [&](int j, bool repeated) {
     const R eta = relative_eta(coat.ior[j], Vec3<R>{0, 0, 1});
-    if (!repeated && eta > 1) {
-      const R of_o = rough ? under.mean_squared(j, along_o, coat.o.through[j])
-                           : o.mean_squared(eta, cos_o, coat.o.through[j]);
-      const R of_i = rough ? under.mean_squared(j, along_i, w.through_i[j])
-                           : i.mean_squared(eta, cos_i, w.through_i[j]);
+    const bool known = coat.lower >= 0 ? lower[coat.lower].known(j) : eta > 1;
+    if (known && !(repeated && coat.lower < 0)) {
+      const R of_o = solved ? under.mean_squared(j, along_o, coat.through_o[j])
+                            : o.mean_squared(eta, cos_o, coat.through_o[j]);
+      const R of_i = solved ? under.mean_squared(j, along_i, w.through_i[j])
+                            : i.mean_squared(eta, cos_i, w.through_i[j]);
       const R both = std::sqrt(of_o) * std::sqrt(of_i);
       scale = both > std::numeric_limits<R>::min() ? 1 / both : R(0);
     }
-    f[j] = eta > 1 ? scale * w.coated[j] : w.other[j];
+    f[j] = known ? scale * w.coated[j] : w.other[j];
   });
   return f;
 }

@@ -14,9 +14,9 @@ namespace {
 const FacetTables kGgxTables{kGgxLoss, kGgxMean, kGgxStretched, kGgxStretchedMean};
 const FacetTables kBeckmannTables{kBeckmannLoss, kBeckmannMean, kBeckmannStretched,
                                   kBeckmannStretchedMean};
-const CoatTables kGgxCoat{kGgxCoatTable, kGgxStretchedCoatTable};
-const CoatTables kBeckmannCoat{kBeckmannCoatTable, kBeckmannStretchedCoatTable};
-const CoatTables kGlossyCoat{kGlossyCoatTable, nullptr};
+const CoatTables kGgxCoat{kGgxCoatTable, kGgxStretchedCoatTable, &kGgxCoated};
+const CoatTables kBeckmannCoat{kBeckmannCoatTable, kBeckmannStretchedCoatTable, &kBeckmannCoated};
+const CoatTables kGlossyCoat{kGlossyCoatTable, nullptr, &kGlossyCoated};
 const CoatedTables kGgxCoated{kGgxCoatedTable, kGgxStretchedCoatedTable, kGgxSpreadTable};
 const CoatedTables kBeckmannCoated{kBeckmannCoatedTable, kBeckmannStretchedCoatedTable,
                                    kBeckmannSpreadTable};

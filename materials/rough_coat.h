@@ -2,11 +2,9 @@
 #pragma once
 
 /// \file
-/// What lobes are scaled by under a coat whose own lobe is rough: G of materials/coated.h, solved
-/// for once where light is seen along one direction, at few directions with polynomials between.
-/// White facets, `glossy` and `rough_matte` below a white `glossy`, `microfacet` or `beckmann`,
-/// none of them stretched, keep their energy within 1e-4, for indices from 1.02 to 4 (next to a
-/// mirror, of a roughness below 0.1, 1e-3; above 4, 2e-3).
+/// Coats and the lobes below them at few directions, with polynomials between: where G of
+/// materials/coated.h is not in a table it is solved for, once where light is seen along one
+/// direction (materials/under_coats.h, materials/two_coats.h).
 
 #include <algorithm>
 #include <array>
@@ -60,124 +58,168 @@ template <class R>
 struct CoatPart {
   CoatLobe<R> lobe{};
   R share = 1;
+
+  bool operator==(const CoatPart&) const = default;
 };
 
-/// G of lobes that are not stretched, under one rough coat.
+/// The lobes of a coat, none of them stretched.
 template <class R>
-class UnderRoughCoat {
-  static constexpr int kDirections = axes::kSpread, kIndices = 3;
-  using Values = std::array<R, kDirections>;
-  using Columns = std::array<Values, CoatedTables::kColumns>;
+struct CoatParts {
+  static constexpr int kMost = 4;
+  std::array<CoatPart<R>, kMost> parts;
+  int count = 0;
 
- public:
-  /// For the coat's index of each wavelength, `ior`; where that is above 1. Of three indices if
-  /// they differ, with quadratics between.
-  void solve(const CoatedLobe<R>& base, std::span<const CoatPart<R>> coat, const R* ior) {
-    R place[kWavelengths], least = 1, most = 0;
-    for_each_index(ior, [&](int j, bool) {
-      const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
-      place[j] = axes::index(eta);
-      if (eta > 1) least = std::min(least, place[j]), most = std::max(most, place[j]);
-    });
-    count_ = least < most ? kIndices : least == most ? 1 : 0;
-    if (count_ == 0) return;
+  bool operator==(const CoatParts&) const = default;
+  std::span<const CoatPart<R>> span() const { return {parts.data(), std::size_t(count)}; }
+  /// One that is no mirror, if any.
+  const CoatLobe<R>* rough() const {
+    for (int k = 0; k < count; ++k)
+      if (parts[k].lobe.known()) return &parts[k].lobe;
+    return nullptr;
+  }
+};
+
+/// Coats above a lobe, and their indices of each wavelength: one, or one of a single lobe or of a
+/// mirror right under another. All that is solved for depends on these.
+template <class R>
+struct Coats {
+  using Indices = std::array<R, kWavelengths>;
+  CoatParts<R> above;
+  Indices above_ior{};
+  CoatLobe<R> lower{};
+  Indices lower_ior{};  ///< 0: there is one
+
+  bool operator==(const Coats&) const = default;
+};
+
+/// A lobe's matrix, of its width.
+template <class R>
+struct SpreadMatrix {
+  static constexpr int kDirections = axes::kSpread;
+  using Values = std::array<R, kDirections>;
+  std::array<Values, CoatedTables::kColumns> rows{};  ///< as in CoatedTables::spread
+
+  explicit SpreadMatrix(const CoatedLobe<R>& lobe) {
     constexpr int n0 = CoatedTables::kColumns * kDirections;
-    Columns columns{};
     for (int q = 0; q < 4; ++q) {
-      const float* p = base.tables->spread + (base.width.first + q) * n0;
+      const float* p = lobe.tables->spread + (lobe.width.first + q) * n0;
       for (int k = 0; k < CoatedTables::kColumns; ++k)
         for (int j = 0; j < kDirections; ++j)
-          columns[k][j] += base.width.weight[q] * R(p[k * kDirections + j]);
-    }
-    for (int n = 0; n < count_; ++n)
-      above_[n] = solve(columns, let_through(coat, least + R(n) / 2 * (most - least),
-                                             columns[kDirections], columns[kDirections + 1]));
-    for (int j = 0; j < kWavelengths; ++j) {
-      const R t = count_ > 1 ? 2 * (place[j] - least) / (most - least) : R(0);
-      weight_[j] = {(1 - t) * (2 - t) / 2, t * (2 - t), t * (t - 1) / 2};
+          rows[k][j] += lobe.width.weight[q] * R(p[k * kDirections + j]);
     }
   }
 
-  /// What `mean_squared` takes of a direction of |cosine| `z`.
-  using Along = std::array<R, kIndices>;
-  Along along(const CoatedLobe<R>& base, R z) const {
-    const Values weights =
-        SpreadPoints<R>::get().weights_at(axes::spread_direction(z, base.cosines));
-    Along above{};
-    for (int n = 0; n < count_; ++n)
-      for (int k = 0; k < kDirections; ++k) above[n] += weights[k] * above_[n][k];
-    return above;
-  }
+  const Values& cosines() const { return rows[kDirections]; }
+  const Values& places() const { return rows[kDirections + 1]; }  ///< axes::coat_direction
 
-  /// G^2 of wavelength j, for T = `through` along the direction.
-  R mean_squared(int j, const Along& along, R through) const {
-    R sum = through;
-    for (int n = 0; n < kIndices; ++n) sum += weight_[j][n] * along[n];
-    return std::max(sum, through / 2);
+  /// int K `of` |cos i| di along the directions.
+  Values mean(const Values& of) const {
+    Values sum{};
+    for (int k = 0; k < kDirections; ++k)
+      for (int j = 0; j < kDirections; ++j) sum[j] += rows[k][j] * of[k];
+    return sum;
   }
+  /// int `of` 2 z dz.
+  R hemispherical_mean(const Values& of) const {
+    R sum = 0;
+    for (int k = 0; k < kDirections; ++k) sum += rows[kDirections + 2][k] * of[k];
+    return sum;
+  }
+};
 
- private:
-  /// G^2 - T. Scaling by a power of what is still wrong (Knight, Ruiz and Ucar 2014), of first
-  /// order: an eigenvalue l of K in [0, 1] leaves 1 - power (1 + l) of its error. Two powers in
-  /// turn are the best of two (Chebyshev), a seventeenth at most.
-  static Values solve(const Columns& columns, const Values& through) {
-    Values g = through, mean;
+/// g and G of materials/coated.h for a lobe under what lets T = `through` pass.
+template <class R>
+struct Scaling {
+  using Values = typename SpreadMatrix<R>::Values;
+  Values g, mean;
+
+  /// Scaling by a power of what is still wrong (Knight, Ruiz and Ucar 2014), of first order: an
+  /// eigenvalue l of K in [0, 1] leaves 1 - power (1 + l) of its error. Two powers in turn are the
+  /// best of two (Chebyshev), a seventeenth at most: two steps leave 1e-3, four less than 1e-4.
+  Scaling(const SpreadMatrix<R>& matrix, const Values& through, int steps = 4) : g(through) {
     const auto spread = [&] {
-      mean.fill(0);
-      for (int k = 0; k < kDirections; ++k)
-        for (int j = 0; j < kDirections; ++j) mean[j] += columns[k][j] * g[k];
+      mean = matrix.mean(g);
       for (R& m : mean) m = std::max(m, R(1e-6));
     };
+    const int n = int(g.size());
     spread();
-    for (int k = 0; k < kDirections; ++k) g[k] = through[k] / std::sqrt(mean[k]);
+    for (int k = 0; k < n; ++k) g[k] = through[k] / std::sqrt(mean[k]);
     spread();
     constexpr R root = R(0.25) * std::numbers::sqrt2_v<R>,
                 power[] = {1 / (R(1.5) + root), 1 / (R(1.5) - root)};
-    for (int n = 0; n < 6; ++n) {
-      for (int k = 0; k < kDirections; ++k)
-        g[k] *= std::max(1 + power[n % 2] * (through[k] / (g[k] * mean[k]) - 1), R(0.2));
+    for (int step = 0; step < steps; ++step) {
+      for (int k = 0; k < n; ++k)  // along the surface nothing may pass
+        if (g[k] > 0)
+          g[k] *= std::max(1 + power[step % 2] * (through[k] / (g[k] * mean[k]) - 1), R(0.2));
       spread();
     }
-    for (int k = 0; k < kDirections; ++k) mean[k] = mean[k] * mean[k] - through[k];
-    return mean;
   }
-
-  /// 1 - E of the coat of an index at `place`, along directions of |cosine| z and the
-  /// axes::coat_direction d.
-  static Values let_through(std::span<const CoatPart<R>> coat, R place, const Values& z,
-                            const Values& d) {
-    Values through{};
-    for (const CoatPart<R>& part : coat) {
-      const Values of_part = let_through(part.lobe, place, z, d);
-      for (int k = 0; k < kDirections; ++k) through[k] += part.share * of_part[k];
-    }
-    return through;
-  }
-  static Values let_through(const CoatLobe<R>& coat, R place, const Values& z, const Values& d) {
-    using namespace axes;
-    const R x = std::min(place * place * place * place, R(1 - 1e-6)), eta = (1 + x) / (1 - x);
-    const auto n = Stencil<R>::at(place, kCoatIndex);
-    constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatIndex);
-    R line[n1] = {};
-    for (int i = 0; coat.known() && i < 4; ++i)
-      for (int j = 0; j < 4; ++j) {
-        const float* p = coat.tables->round + (coat.width.first + i) * n0 + (n.first + j) * n1;
-        for (int k = 0; k < n1; ++k) line[k] += coat.width.weight[i] * n.weight[j] * R(p[k]);
-      }
-    Values through;
-    for (int k = 0; k < kDirections; ++k) {
-      const FresnelSplit<R> s = fresnel_split(limited(z[k], R(0), R(1)), eta);
-      through[k] =
-          (s.transmitted + 1 -
-           coat.mean_of(s.reflected, interpolate(line, Stencil<R>::at(d[k], kCoatDirection)))) /
-          2;
-    }
-    return through;
-  }
-
-  int count_;                                                 ///< of indices; 0: none is above 1
-  Values above_[kIndices];                                    ///< G^2 - T at the points
-  std::array<std::array<R, kIndices>, kWavelengths> weight_;  ///< of the indices
 };
+
+/// The one index, above 1, of all wavelengths, or three with quadratics between.
+template <class R>
+struct FewIndices {
+  static constexpr int kMost = 3;
+  int count = 0;     ///< 0: none is above 1
+  R place[kMost]{};  ///< axes::index
+  std::array<std::array<R, kMost>, kWavelengths> weight;
+
+  explicit FewIndices(const R* ior) {
+    R all[kWavelengths], least = 1, most = 0;
+    for_each_index(ior, [&](int j, bool) {
+      const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
+      all[j] = axes::index(eta);
+      if (eta > 1) least = std::min(least, all[j]), most = std::max(most, all[j]);
+    });
+    count = least < most ? kMost : least == most ? 1 : 0;
+    for (int n = 0; n < count; ++n) place[n] = least + R(n) / 2 * (most - least);
+    for (int j = 0; j < kWavelengths; ++j) {
+      const R t = count > 1 ? 2 * (all[j] - least) / (most - least) : R(0);
+      weight[j] = {(1 - t) * (2 - t) / 2, t * (2 - t), t * (t - 1) / 2};
+    }
+  }
+
+  /// For wavelength j, of what there is for each index.
+  template <class Values>
+  Values between(int j, const Values* of) const {
+    Values sum{};
+    for (int n = 0; n < count; ++n)
+      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight[j][n] * of[n][k];
+    return sum;
+  }
+};
+
+/// 1 - E of a coat of an index at `place`, along the directions of a matrix.
+template <class R>
+inline typename SpreadMatrix<R>::Values let_through(const CoatLobe<R>& coat, R place,
+                                                    const SpreadMatrix<R>& matrix) {
+  using namespace axes;
+  const R x = std::min(place * place * place * place, R(1 - 1e-6)), eta = (1 + x) / (1 - x);
+  const auto n = Stencil<R>::at(place, kCoatIndex);
+  constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatIndex);
+  R line[n1] = {};
+  for (int i = 0; coat.known() && i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const float* p = coat.tables->round + (coat.width.first + i) * n0 + (n.first + j) * n1;
+      for (int k = 0; k < n1; ++k) line[k] += coat.width.weight[i] * n.weight[j] * R(p[k]);
+    }
+  typename SpreadMatrix<R>::Values through;
+  for (int k = 0; k < kSpread; ++k) {
+    const FresnelSplit<R> s = fresnel_split(limited(matrix.cosines()[k], R(0), R(1)), eta);
+    const R difference = interpolate(line, Stencil<R>::at(matrix.places()[k], kCoatDirection));
+    through[k] = (s.transmitted + 1 - coat.mean_of(s.reflected, difference)) / 2;
+  }
+  return through;
+}
+template <class R>
+inline typename SpreadMatrix<R>::Values let_through(std::span<const CoatPart<R>> coat, R place,
+                                                    const SpreadMatrix<R>& matrix) {
+  typename SpreadMatrix<R>::Values through{};
+  for (const CoatPart<R>& part : coat) {
+    const auto of_part = let_through(part.lobe, place, matrix);
+    for (int k = 0; k < axes::kSpread; ++k) through[k] += part.share * of_part[k];
+  }
+  return through;
+}
 
 }  // namespace mms::materials

@@ -15,6 +15,8 @@ struct Stencil {
   int first = 0;
   R weight[4] = {};
 
+  bool operator==(const Stencil&) const = default;
+
   /// Outside [0, 1], and where `x` is not a number, the nearer end holds.
   static Stencil at(R x, int nodes) {
     const R u = (x > 0 ? std::min(x, R(1)) : R(0)) * R(nodes - 1);

@@ -200,7 +200,7 @@ void Integrator::shade(std::span<const Vertex> group) {
       if (albedo.is_black()) continue;
       std::copy(albedo.v.begin(), albedo.v.end(), params_.begin());
       scatter(v, {matte_layout(), params_.data(), shading_frame(s, {0, 0}, v.point.view),
-                  v.point.view});
+                  v.point.view, choice_});
     }
     return;
   }
@@ -232,14 +232,16 @@ void Integrator::shade(std::span<const Vertex> group) {
     const SurfacePoint& s = v.point.surface;
     if (lost) {
       std::fill_n(params, kWavelengths, 1.0f);
-      scatter(v, {matte_layout(), params, shading_frame(s, {0, 0}, v.point.view), v.point.view});
+      scatter(v, {matte_layout(), params, shading_frame(s, {0, 0}, v.point.view), v.point.view,
+                  choice_});
       continue;
     }
     if (world_.nested) immerse(c.material, v.outside, params);
     if (c.emits)
       add_emission(v, scripted_emission(world_.compiled, scripts_, *d, EntryKind::Shade, i, s,
                                         v.point.view, scratch_));
-    scatter(v, {c.material, params, shading_frame(s, gradient, v.point.view), v.point.view});
+    scatter(v,
+            {c.material, params, shading_frame(s, gradient, v.point.view), v.point.view, choice_});
   }
 }
 

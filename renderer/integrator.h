@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "materials/bsdf.h"
 #include "renderer/film.h"
 #include "renderer/flight.h"
 #include "renderer/surroundings.h"
@@ -150,8 +151,9 @@ class Integrator {
   std::vector<ScriptPoint> light_points_;
   std::vector<const ScriptPoint*> lanes_;
   std::vector<float> params_, scratch_;
-  std::vector<BallOptics> optics_;  ///< of each sample's wavelengths, ball after ball
-  std::vector<float> ball_params_;  ///< what the balls scatter by, likewise
+  materials::Bsdf<float>::Choice choice_;  ///< of the vertex that is being shaded
+  std::vector<BallOptics> optics_;         ///< of each sample's wavelengths, ball after ball
+  std::vector<float> ball_params_;         ///< what the balls scatter by, likewise
 };
 
 }  // namespace mms::renderer

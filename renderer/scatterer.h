@@ -24,20 +24,19 @@ struct Integrator::Scatterer {
   const float* params;
   bool medium = false;
   Frame<double> frame;
-  Vec3f view;                             ///< of a surface, in its frame
-  materials::Bsdf<float>::Choice choice;  ///< likewise
-  int directions = 1;                     ///< that are drawn: densities are of all of them
-  const LampImages* images = nullptr;     ///< where one more is drawn by them, by their chance
+  Vec3f view;                                              ///< of a surface, in its frame
+  const materials::Bsdf<float>::Choice* choice = nullptr;  ///< likewise
+  int directions = 1;                  ///< that are drawn: densities are of all of them
+  const LampImages* images = nullptr;  ///< where one more is drawn by them, by their chance
 
   /// Of a medium.
   Scatterer(const materials::Layout& l, const float* p) : layout(l), params(p), medium(true) {}
-  /// Of a surface, seen along `from`.
-  Scatterer(const materials::Layout& l, const float* p, const Frame<double>& f, Vec3d from)
-      : layout(l),
-        params(p),
-        frame(f),
-        view(f.to_local(from)),
-        choice(materials::Bsdf<float>(l, p).choose(view)) {}
+  /// Of a surface, seen along `from`. Keeps its choice in `c`.
+  Scatterer(const materials::Layout& l, const float* p, const Frame<double>& f, Vec3d from,
+            materials::Bsdf<float>::Choice& c)
+      : layout(l), params(p), frame(f), view(f.to_local(from)), choice(&c) {
+    materials::Bsdf<float>(l, p).choose(view, c);
+  }
 
   /// What `consistent` leaves out comes from below the horizon.
   Receives receives(const ScriptPoint& p) const {
@@ -74,7 +73,7 @@ struct Integrator::Scatterer {
     if (!consistent(p.surface, frame, wi)) return {wi, {}, {}};
     const materials::Bsdf<float> bsdf(layout, params);
     const Vec3f local(frame.to_local(wi));
-    const auto lobes = bsdf.evaluate(view, local, materials::Mode::Radiance, choice);
+    const auto lobes = bsdf.evaluate(view, local, materials::Mode::Radiance, *choice);
     return {wi, lobes.f * std::abs(local.z), density(lobes.pdf, wi)};
   }
 
@@ -85,7 +84,7 @@ struct Integrator::Scatterer {
       return Sampled{Vec3d(s->wi), s->f, s->pdf * float(directions)};
     }
     const auto s = materials::Bsdf<float>(layout, params)
-                       .sample(view, u_lobe, u, v, materials::Mode::Radiance, choice);
+                       .sample(view, u_lobe, u, v, materials::Mode::Radiance, *choice);
     if (!s) return {};
     const Vec3d wi = normalize(frame.to_world(Vec3d(s->wi)));
     if (!consistent(p.surface, frame, wi)) return {};

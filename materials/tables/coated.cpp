@@ -78,7 +78,7 @@ std::vector<float> write_coated(std::FILE* to, const std::string& name,
   });
 }
 
-/// The columns of a lobe's matrix, of cosines and of places.
+/// The columns of a lobe's matrix, of cosines, of places and of means.
 Values spread_columns(const Spread& lobe, double width) {
   constexpr int kDirections = axes::kSpread;
   const auto& points = SpreadPoints<double>::get();
@@ -90,7 +90,7 @@ Values spread_columns(const Spread& lobe, double width) {
   }
   const auto axis = [&](double z, double) { return axes::spread_direction(z, width); };
   double* cosines = &columns[kDirections * kDirections];
-  double* places = cosines + kDirections;
+  double *places = cosines + kDirections, *means = places + kDirections;
   for (int k = 0; k < kDirections; ++k) {
     cosines[k] = cosine(points.place[k], axis);
     places[k] = axes::coat_direction(cosines[k]);
@@ -99,6 +99,13 @@ Values spread_columns(const Spread& lobe, double width) {
     const Values mean = lobe.mean(polynomial[k]);
     for (int j = 0; j < kDirections; ++j)
       columns[k * kDirections + j] = Place(places[j]).value(mean);
+  }
+  const auto& rule = gauss<8>();
+  for (int n = 0; n < 8 * kNodes; ++n) {  // z = u^4: dense towards grazing
+    const double u = (n / 8 + rule.x[n % 8]) / kNodes, z = u * u * u * u;
+    const auto weights = points.weights_at(axes::spread_direction(z, width));
+    for (int k = 0; k < kDirections; ++k)
+      means[k] += weights[k] * 8 * std::pow(u, 7) * rule.w[n % 8] / kNodes;
   }
   return columns;
 }

@@ -19,6 +19,7 @@ namespace mms::test {
 inline double hemisphere(const materials::Bsdf<double>& bsdf, Vec3d wo, bool upper, double peak,
                          int panels) {
   const int n = 8 * panels;
+  const auto choice = bsdf.choose(wo);
   const double start = std::atan2(-wo.y, -wo.x);
   std::vector<double> offset(n), weight(n);  // 1 - (1 - u^8)^2: smooth in z where z is 0
   for (int i = 0; i < n; ++i) {
@@ -35,7 +36,7 @@ inline double hemisphere(const materials::Bsdf<double>& bsdf, Vec3d wo, bool upp
       for (int k = 0; k < n; ++k)
         for (const double a : {kPi<double> * offset[k], -kPi<double> * offset[k]}) {
           const Vec3d wi{r * std::cos(start + a), r * std::sin(start + a), upper ? z : -z};
-          ring += weight[k] * bsdf.eval(wo, wi, materials::Mode::Importance)[0];
+          ring += weight[k] * bsdf.evaluate(wo, wi, materials::Mode::Importance, choice).f[0];
         }
       sum += std::abs(reach) * weight[i] * ring;
     }
