@@ -259,6 +259,31 @@ TEST_CASE("a coat of index 1 is not there") {
   }
 }
 
+TEST_CASE("a choice that was made for other coats changes nothing") {
+  const Material made[] = {
+      coat(mirror(1), fresnel_mix(matte(1), microfacet(1, 0.4), 1.5), 0, 0, 1.6),
+      coat(microfacet(1, 0.3), fresnel_mix(matte(1), microfacet(1, 0.4), 1.5), 0, 0, 1.6),
+      coat(microfacet(1, 0.3), fresnel_mix(matte(1), microfacet(1, 0.4), 1.4), 0, 0, 1.6),
+      coat(microfacet(1, 0.3), fresnel_mix(glossy(1, 30), microfacet(1, 0.4), 1.4), 0, 0, 1.6),
+      coat(microfacet(1, 0.3), glossy(1, 30), 0, 0, 1.6),
+      coat(microfacet(1, 0.3), glossy(1, 20), 0, 0, 1.6),
+      coat(glossy(1, 9), glossy(1, 20), 0, 0, 1.6),
+      coat(glossy(1, 9), matte(1), 0, 0, 1)};
+  Bsdf<double>::Choice kept;
+  const Vec3d wi = direction(40, 2.0);
+  for (int round = 0; round < 2; ++round)
+    for (const Material& m : made)
+      for (double degrees : {20.0, 70.0}) {
+        const materials::Layout layout = m.layout();
+        const auto p = m.params<double>();
+        const Bsdf<double> bsdf(layout, p.data());
+        const Vec3d wo = direction(degrees, 0.3);
+        bsdf.choose(wo, kept);
+        CHECK(bsdf.evaluate(wo, wi, Mode::Radiance, kept).f[0] ==
+              bsdf.eval(wo, wi, Mode::Radiance)[0]);
+      }
+}
+
 TEST_CASE("stretched facets under a coat keep their energy") {
   struct Row {
     std::string name;
