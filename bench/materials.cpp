@@ -25,17 +25,27 @@ namespace {
 using materials::Bsdf;
 using materials::Mode;
 
-/// A surface's scattering of radiance, with the face of a volume's.
+/// A surface's scattering of radiance, with the face of a volume's. One choice is kept from hit to
+/// hit, as an integrator does.
 template <class R>
 struct Surface {
   Bsdf<R> bsdf;
 
   Surface(const materials::Layout& layout, const R* params) : bsdf(layout, params) {}
-  auto eval(Vec3<R> wo, Vec3<R> wi) const { return bsdf.eval(wo, wi, Mode::Radiance); }
-  auto pdf(Vec3<R> wo, Vec3<R> wi) const { return bsdf.pdf(wo, wi, Mode::Radiance); }
-  auto evaluate(Vec3<R> wo, Vec3<R> wi) const { return bsdf.evaluate(wo, wi, Mode::Radiance); }
+  auto eval(Vec3<R> wo, Vec3<R> wi) const { return evaluate(wo, wi).f; }
+  auto pdf(Vec3<R> wo, Vec3<R> wi) const { return evaluate(wo, wi).pdf; }
+  auto evaluate(Vec3<R> wo, Vec3<R> wi) const {
+    return bsdf.evaluate(wo, wi, Mode::Radiance, choose(wo));
+  }
   auto sample(Vec3<R> wo, R u, R u1, R u2) const {
-    return bsdf.sample(wo, u, u1, u2, Mode::Radiance);
+    return bsdf.sample(wo, u, u1, u2, Mode::Radiance, choose(wo));
+  }
+
+ private:
+  const auto& choose(Vec3<R> wo) const {
+    static typename Bsdf<R>::Choice kept;
+    bsdf.choose(wo, kept);
+    return kept;
   }
 };
 
@@ -219,10 +229,10 @@ std::string document() {
       "## Materials, ns a hit\n\nAll eight wavelengths of a hit in float, the choice among parts "
       "included: the median of {} rounds, of all\nmaterials in turn, over {} hits, half of whose "
       "directions are the model's own samples. First as the renderer calls\nthem, hit after hit "
-      "with numbers of its own; then `alone`, where each call waits for the one before. `error` is "
-      "how\nfar f in float is from f in double at the same numbers, in units of 2^-24 of it; "
-      "models "
-      "that are ideally specular have\nno f. `./run bench`, or `bench_materials` alone.\n\n{}",
+      "with numbers of its own; then `alone`, where each call waits for the one before. What coats "
+      "are\nsolved for is kept from hit to hit, as along paths. `error` is how far f in float is "
+      "from f in double at the same\nnumbers, in units of 2^-24 of it; models that are ideally "
+      "specular have no f. `./run bench`, or `bench_materials` alone.\n\n{}",
       kRounds, kHits, table);
 }
 

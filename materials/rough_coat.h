@@ -3,8 +3,8 @@
 
 /// \file
 /// Coats and the lobes below them at few directions, with polynomials between: where G of
-/// materials/coated.h is not in a table it is solved for, once where light is seen along one
-/// direction (materials/under_coats.h, materials/two_coats.h).
+/// materials/coated.h is not in a table it is solved for, once for all directions
+/// (materials/under_coats.h, materials/two_coats.h).
 
 #include <algorithm>
 #include <array>
