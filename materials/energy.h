@@ -51,7 +51,7 @@ inline constexpr float kGgxLeastMean = 0.1f, kBeckmannLeastMean = 0.003f;
 inline constexpr float kGgxKink = 0.6f, kBeckmannKink = 0;
 /// `bent` of both.
 inline constexpr BentGrid kGgxBent[] = {{11, 14, 26, 12}, {12, 20, 28, 14}};
-inline constexpr BentGrid kBeckmannBent[] = {{12, 14, 26, 12}, {18, 20, 32, 14}};
+inline constexpr BentGrid kBeckmannBent[] = {{12, 14, 26, 12}, {18, 25, 32, 14}};
 
 /// How directions and widths are laid out over [0, 1] along the axes of the tables.
 namespace axes {
@@ -66,7 +66,7 @@ inline constexpr int kInterfaceAlpha[] = {23, 35}, kIndex[] = {33, 43};
 inline constexpr int kInterfaceDirection[] = {55, 75};
 inline constexpr int kInterfaceMean = 65;
 /// Bent: of stretched facets of an interface; other nodes in BentGrid.
-inline constexpr int kBentMeanAlpha = 17, kBentMeanAspect = 8, kBentMeanIndex = 16;
+inline constexpr int kBentMeanAlpha = 25, kBentMeanAspect = 10, kBentMeanIndex = 32;
 /// Roots of the least width; below, all is as there, but for its scale. The ends of the axis of
 /// indices: 1.0002 and 4, or their inverses.
 inline constexpr double kLeastBentRoot = 0.1, kLeastBentFourthRoot = 0.15;

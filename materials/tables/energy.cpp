@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/energy.h and writes them as C++ to the named file: run by the
-// build, on two threads or more, for about six minutes of one core.
+// build, on two threads or more, for about eight minutes of one core.
 #include <cstdio>
 #include <string>
 
@@ -158,7 +158,7 @@ void write_stretched_interface(std::FILE* to, const std::string& name, bool risi
           const double eta = bent_index_at(x[2], rising), a2 = alpha * alpha;
           const InterfaceLoss<double> like{&tables, alpha, alpha, eta},
               loss{&tables, wide, narrow, eta};
-          return mean_loss(loss, a2, wide > narrow ? 12 : 1, ridge_of(eta)) * mean_unit(a2) /
+          return mean_loss(loss, a2, wide > narrow ? 8 : 1, ridge_of(eta)) * mean_unit(a2) /
                  like.mean();
         }));
 }

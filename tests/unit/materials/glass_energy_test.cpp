@@ -197,23 +197,22 @@ void check_round(const auto& glass) {
           worst.where);
 }
 
-/// `steep`: the bound at anisotropy 0.9 where the index falls, the hardest of all.
-void check_stretched(const auto& glass, double steep) {
+void check_stretched(const auto& glass) {
   for (const double anisotropy : {0.3, -0.6, 0.9}) {
     Worst worst[2];
-    for (double index : {1.01, 1.1, 1.5, 4.0})
+    for (double index : {1.006, 1.01, 1.1, 1.5, 4.0})
       for (double ior : {index, 1 / index})
         for (double roughness : {0.16, 0.4, 0.7, 1.0}) {
           const auto alpha = materials::Alpha<double>::from(roughness, anisotropy);
           const typename std::decay_t<decltype(glass)>::Facets facets{alpha.ax, alpha.ay};
           const Material m = dielectric(ior, roughness, 1, 1, anisotropy, glass.lobe);
+          if (smooth_everywhere(m)) continue;
           for (double degrees : {0.0, 40.0, 70.0, 85.0, 89.99})
             for (double azimuth : {0.2, 0.8, 1.4}) {
               if (kSanitized && (roughness != 0.4 || degrees != 70)) continue;
               const double a = albedo(m, facets, ior, direction(degrees, azimuth));
               worst[ior < 1].meet(a, ior, roughness, degrees);
-              const double bound = ior < 1 && anisotropy == 0.9 ? steep : 1e-3;
-              CHECK_MESSAGE(std::abs(a - 1) < bound, glass.name, " ", anisotropy, " ", ior, " ",
+              CHECK_MESSAGE(std::abs(a - 1) < 1e-3, glass.name, " ", anisotropy, " ", ior, " ",
                             roughness, " at ", degrees, " ", azimuth, ": ", a - 1);
             }
         }
@@ -234,6 +233,6 @@ TEST_CASE("white rough glass is lossless within 1e-3, from both sides and up to 
 }
 
 TEST_CASE("white rough glass of stretched facets is too, up to anisotropy 0.9") {
-  check_stretched(kGgx, 1e-3);
-  check_stretched(kBeckmann, 2e-3);
+  check_stretched(kGgx);
+  check_stretched(kBeckmann);
 }
