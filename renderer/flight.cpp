@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "renderer/batches.h"
 #include "renderer/vertex.h"
@@ -131,23 +132,35 @@ void Flights::begin(Flight& f) {
   f.look = {-1, 0};
 }
 
-/// Each flight goes on to its end or to where a script has to be asked, and is answered.
+/// Each flight goes on to its end or to where a script has to be asked, and is answered. What fills
+/// no batch waits, if something else goes on.
 void Flights::advance_all(std::vector<Flight>& flights, const std::vector<PathView>& paths) {
   requests_.clear();
+  bool onward = false;
   for (int i : flying_) {
     Flight& f = flights[i];
     Crossings& crossings = crossings_[f.crossings];
-    const Need need = advance(f, crossings, paths[f.path]);
-    if (need == Need::Nothing) continue;
-    const int key = need == Need::Crossing
+    if (f.need == Need::Nothing) f.need = advance(f, crossings, paths[f.path]);
+    if (f.need == Need::Nothing) {
+      onward = true;
+      continue;
+    }
+    const int key = f.need == Need::Crossing
                         ? world_.scene.objects[crossings.hits[f.next].object].surface
                         : world_.scene.objects[f.medium].volume;
-    requests_.push_back({i, need, key});
+    requests_.push_back({i, f.need, key});
   }
   const auto key = [](const Request& r) { return std::pair(r.need, r.key); };
   std::ranges::stable_sort(requests_, {}, key);
-  for_each_batch(std::span(requests_), scripts_.width(), key,
-                 [&](std::span<const Request> batch) { answer(flights, paths, batch); });
+  part_filled_.clear();
+  for_each_batch(std::span(std::as_const(requests_)), scripts_.width(), key,
+                 [&](std::span<const Request> batch) {
+                   if (int(batch.size()) < scripts_.width()) return part_filled_.push_back(batch);
+                   answer(flights, paths, batch);
+                   onward = true;
+                 });
+  if (onward) return;
+  for (std::span<const Request> batch : part_filled_) answer(flights, paths, batch);
 }
 
 bool Flights::open(Vec3f from, Vec3f to) {
@@ -175,7 +188,7 @@ void Flights::trace(Flight& f, Crossings& crossings, float from) {
 }
 
 /// Takes a flight to its end, or to where a script has to be asked.
-Flights::Need Flights::advance(Flight& f, Crossings& crossings, const PathView& path) {
+Need Flights::advance(Flight& f, Crossings& crossings, const PathView& path) {
   for (;;) {
     if (f.next == crossings.count && crossings.overflow) {
       trace(f, crossings, std::nextafter(f.t, kInfinity));
@@ -218,6 +231,7 @@ void Flights::answer(std::vector<Flight>& flights, const std::vector<PathView>& 
   points_.clear();
   for (const Request& r : requests) {
     Flight& f = flights[r.flight];
+    f.need = Need::Nothing;
     const Hit* hit = need == Need::Crossing ? &crossings_[f.crossings].hits[f.next] : nullptr;
     points_.push_back(script_point(world_, f, hit, paths[f.path]));
   }

@@ -5,6 +5,7 @@
 /// Rays on their way: through semi-transparent surfaces and media, to where something happens.
 /// Many fly at a time, so that what they meet can be asked of scripts in batches.
 
+#include <span>
 #include <vector>
 
 #include "renderer/sampler.h"
@@ -47,6 +48,9 @@ enum class End : std::uint8_t {
   Lost,     ///< absorbed or blocked
 };
 
+/// What a flight waits for a script to say.
+enum class Need : std::uint8_t { Nothing, Coefficients, Collision, Emission, Crossing };
+
 /// What a volume does to light, for each wavelength.
 struct Coefficients {
   Spectrumf scattering, absorption;  ///< 1/m
@@ -59,6 +63,7 @@ struct Flight {
   int path = 0;       ///< whose it is
   Errand errand = Errand::Path;
   End end = End::Flying;
+  Need need = Need::Nothing;
   bool emission_seen = false;  ///< of the crossing that `hit` is
   float t = 0;                 ///< how far it has come
   float t_max = 0;             ///< how far it goes at most
@@ -125,7 +130,6 @@ class Flights {
   const FlightCounters& counters() const { return counters_; }
 
  private:
-  enum class Need : std::uint8_t { Nothing, Coefficients, Collision, Emission, Crossing };
   struct Request {
     int flight;
     Need need;
@@ -165,6 +169,7 @@ class Flights {
   std::vector<int> free_crossings_;
   std::vector<int> flying_;
   std::vector<Request> requests_;
+  std::vector<std::span<const Request>> part_filled_;  ///< batches of them
   std::vector<ScriptPoint> points_;
   std::vector<const ScriptPoint*> lanes_;
   std::vector<float> params_;

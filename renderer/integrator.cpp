@@ -90,7 +90,7 @@ void Integrator::trace(std::span<const PixelSample> samples, std::span<FilmSampl
     next_.clear();
     shadows_.clear();
     connections_.clear();
-    gather();
+    gather(started < samples.size());
     if (world_.nested) ask_surroundings();
     for_each_batch(
         std::span(vertices_), scripts_.width(), [](const Vertex& v) { return v.kind; },
@@ -140,7 +140,8 @@ void Integrator::start(const PixelSample& s, int sample, FilmSample& point) {
 
 /// Adds what shadow rays found and what the environment sends along rays that left the scene, and
 /// orders the rest by what has to be run for them. What is not done stays for the next time.
-void Integrator::gather() {
+/// `more`: paths are still to begin.
+void Integrator::gather(bool more) {
   for (const Flight& f : now_) {
     if (f.errand == Errand::Path || f.end == End::Flying || go_beyond(f)) continue;
     --paths_[f.path].asks;
@@ -166,6 +167,7 @@ void Integrator::gather() {
     }
   }
   std::ranges::stable_sort(arrived_, {}, &Arrived::kind);
+  hold_back(more);
   for (const auto& [kind, f] : arrived_) {
     const Hit* hit = f->end == End::Surface ? &f->hit : nullptr;
     Path& p = paths_[f->path];
@@ -174,6 +176,36 @@ void Integrator::gather() {
     v.point.cone = world_.camera.pixel_angle() * p.travelled;
     vertices_.push_back(v);
   }
+}
+
+/// Whether a script is run at vertices of that kind.
+bool Integrator::runs(int kind) const {
+  const int surfaces = int(world_.scene.surfaces.size());
+  const bool medium = kind >= surfaces;
+  const vm::Descriptor* d =
+      medium ? world_.scene.volumes[kind - surfaces].script : world_.scene.surfaces[kind].script;
+  return d && d->shade.function && !(medium && world_.compiled.of(d).constant_material);
+}
+
+/// Of what is ordered, leaves for later what fills no batch, if something else goes on meanwhile.
+void Integrator::hold_back(bool more) {
+  const std::size_t width = std::size_t(scripts_.width());
+  const auto held = [&](std::span<const Arrived> of_a_kind) {
+    return runs(of_a_kind[0].kind) ? of_a_kind.size() % width : 0;
+  };
+  kept_.clear();
+  const std::size_t waiting = next_.size();
+  for_each_batch(
+      std::span(arrived_), int(arrived_.size()), [](const Arrived& a) { return a.kind; },
+      [&](std::span<const Arrived> of_a_kind) {
+        const std::size_t keep = of_a_kind.size() - held(of_a_kind);
+        kept_.insert(kept_.end(), of_a_kind.begin(), of_a_kind.begin() + std::ptrdiff_t(keep));
+        for (const Arrived& a : of_a_kind.subspan(keep)) next_.push_back(*a.flight);
+      });
+  if (more || waiting > 0 || !kept_.empty())
+    std::swap(arrived_, kept_);
+  else
+    next_.clear();
 }
 
 void Integrator::add_emission(const Vertex& v, const Spectrumf& emitted) {

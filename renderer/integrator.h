@@ -98,7 +98,9 @@ class Integrator {
   void start(const PixelSample& pixel, int sample, FilmSample& stream);
   bool go_beyond(const Flight& arrived);
   void receive(const Flight& f);
-  void gather();
+  void gather(bool more);
+  bool runs(int kind) const;
+  void hold_back(bool more);
   void ask_surroundings();
   void shade(std::span<const Vertex> group);
   void scatter(const Vertex& v, Scatterer&& s);  ///< which is large
@@ -142,7 +144,7 @@ class Integrator {
   std::vector<Path> paths_;
   std::vector<PathView> views_;
   std::vector<Flight> now_, next_, shadows_;
-  std::vector<Arrived> arrived_;
+  std::vector<Arrived> arrived_, kept_;
   std::vector<Vertex> vertices_;
   std::vector<Connection> connections_;
   std::vector<Beyond> beyond_;

@@ -22,7 +22,7 @@ constexpr std::size_t kExplained = 64;
 /// Where scripts run many paths are worked on together, for full batches; but every thread
 /// is to have some turns of a picture.
 int chunks_at_once(std::int64_t tiles, int threads) {
-  return int(std::clamp<std::int64_t>(tiles / (8 * threads), 1, 8));
+  return int(std::clamp<std::int64_t>(tiles / (8 * threads), 1, 16));
 }
 
 }  // namespace
