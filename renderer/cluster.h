@@ -5,6 +5,7 @@
 /// Everything about a path that depends on its wavelengths alone, looked up once.
 
 #include <array>
+#include <cstdint>
 
 #include "base/spectrum.h"
 
@@ -24,9 +25,15 @@ struct Cluster {
   std::array<double, 3> xyz(const Spectrumf& radiance) const;
 };
 
+/// What is in a scene besides its lamps. Where all of it is grey, what a path carries is a sum of
+/// lamps' spectra.
+enum class Matter : std::uint8_t { Coloured, Grey };
+
 /// The cluster drawn by `u` in [0, 1), of so many wavelengths that differ: a power of two. Where
-/// they are fewer than lanes the lanes repeat them.
-Cluster sample_cluster(double u, int wavelengths = kWavelengths);
+/// they are fewer than lanes the lanes repeat them. Of grey matter `x`, `y` and `z` of all eight are
+/// moved, as little as that takes, to where every `light` has its exact colour: no wavelength that
+/// is drawn is seen.
+Cluster sample_cluster(double u, int wavelengths = kWavelengths, Matter matter = Matter::Coloured);
 
 /// Puts the digits of a number in [0, 1) into another order: the number that draws a cluster says
 /// with its first binary digits which wavelength is the hero (three for eight of them), and with

@@ -140,6 +140,9 @@ double similarity(const std::vector<double>& a, const std::vector<double>& b, in
   return sum / double(a.size());
 }
 
+/// Of a value that is a sum of floats, relative to it.
+constexpr double kRounding = 0x1p-22;
+
 void compare_linear(const ReadPicture& a, const ReadPicture& b, const Part& part, Comparison& c) {
   const bool known = !a.variance.empty() && !b.variance.empty();
   Roots linear;
@@ -164,11 +167,12 @@ void compare_linear(const ReadPicture& a, const ReadPicture& b, const Part& part
       c.largest = std::max(c.largest, std::abs(d));
     }
     if (!known) continue;
-    const double variance = double(a.variance[at]) + double(b.variance[at]);
-    if (!(variance > 0)) continue;
+    const double chance = double(a.variance[at]) + double(b.variance[at]);
+    if (!(chance > 0)) continue;
     ++with_variance;
-    const double d = luminance(p) - luminance(q);
-    z += d * d / variance;
+    // Where next to nothing is left to chance, what float keeps of a value is.
+    const double d = luminance(p) - luminance(q), kept = kRounding * luminance(q);
+    z += d * d / (chance + kept * kept);
   }
   const double n = double(std::max<std::size_t>(1, count));
   c.channel = linear.roots(n);

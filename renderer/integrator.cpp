@@ -129,7 +129,8 @@ void Integrator::start(const PixelSample& s, int sample, FilmSample& point) {
   p.sampler = Sampler(world_.seed, s.x, s.y, std::uint64_t(s.sample), world_.generator);
   const std::array<float, 4> u = p.sampler.first();
   const int wavelengths = wavelengths_of(world_.estimator);
-  p.cluster = sample_cluster(cluster_number(u[kWavelength], wavelengths), wavelengths);
+  p.cluster =
+      sample_cluster(cluster_number(u[kWavelength], wavelengths), wavelengths, world_.matter);
   p.first_part = u[kFirstPart];
   point.x = s.x + double(u[kFilmX]);
   point.y = s.y + double(u[kFilmY]);

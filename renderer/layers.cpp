@@ -88,7 +88,7 @@ class Gaze {
       Look& l = looks_[i];
       l.sampler = Sampler(world_.seed, x, y, std::uint64_t(i % samples_));
       const std::array<float, 4> u = l.sampler.first();
-      l.cluster = sample_cluster(u[kWavelength]);
+      l.cluster = sample_cluster(u[kWavelength], kWavelengths, world_.matter);
       views_.push_back(
           {&l.cluster, &l.sampler, &l.radiance, &l.radiance, world_.camera.pixel_angle()});
       rays_.push_back(

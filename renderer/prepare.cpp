@@ -29,6 +29,24 @@ bool emits(const SceneData& scene, const Compiled& compiled, const Object& o) {
   return s.script ? compiled.of(s.script).emits : s.fixed.emits();
 }
 
+Matter matter_of(const SceneData& scene, const Compiled& compiled) {
+  const auto grey = [](const Rgb& c) { return c[0] == c[1] && c[1] == c[2]; };
+  const auto even = [&](const vm::Descriptor* d) {
+    using vm::Output;
+    return !d ||
+           (!compiled.of(d).emits && !d->output(Output::Material).spectral &&
+            !d->output(Output::Scattering).spectral && !d->output(Output::Absorption).spectral);
+  };
+  bool all = true;
+  for (const Object& o : scene.objects) {
+    const Surface& s = scene.surfaces[o.surface];
+    all &= even(s.script) &&
+           (s.script || (grey(s.fixed.matte) && grey(s.fixed.checker.value_or(s.fixed.matte))));
+    all &= o.volume < 0 || even(scene.volumes[o.volume].script);
+  }
+  return all ? Matter::Grey : Matter::Coloured;
+}
+
 bool semi_transparent(const SceneData& scene, const Compiled& compiled, const Object& o) {
   const Surface& s = scene.surfaces[o.surface];
   return s.script ? compiled.of(s.script).semi_transparent : s.fixed.invisible;

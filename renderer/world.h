@@ -30,6 +30,7 @@ struct World {
   /// The first vertices of a path are lit by each of the lights rather than by one of them: most of
   /// what a pixel's samples differ by happens there, and the choice between lights is most of that.
   bool each_light = false;
+  Matter matter = Matter::Coloured;
   std::uint64_t seed = 0;
   int max_depth = 0;
   /// Of each object's volume, if it varies: Findings.
@@ -68,6 +69,10 @@ struct World {
     return false;
   }
 };
+
+/// Grey where no wavelength can be told from another but by what lamps of the scene radiate. What
+/// a script radiates need not be of their colours.
+Matter matter_of(const SceneData& scene, const Compiled& compiled);
 
 /// Whether object `o` sends out light of its own.
 bool emits(const SceneData& scene, const Compiled& compiled, const Object& o);

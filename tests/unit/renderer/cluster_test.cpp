@@ -4,9 +4,12 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "materials/colour.h"
+#include "materials/spectra.h"
 #include "scenes.h"
 #include "tests/sanitized.h"
 
@@ -53,29 +56,70 @@ TEST_CASE("clusters of four: the same white, each wavelength in two lanes, more 
   CHECK(std::sqrt(red4) > 2 * std::sqrt(red8));
 }
 
-TEST_CASE("where all is grey, red, green and blue err at most a tenth more than luminance alone") {
-  HandProgram h;
-  h.matte("x", 0.5);
-  const Scene s = builtin(h.program, "backlit");
+namespace {
+
+/// Mean squares over pixels of what pictures of some samples are off by from one of many: of red,
+/// green and blue together, and of luminance.
+std::pair<double, double> errors(const vm::Program& program, int samples) {
+  const Scene s = builtin(program, "backlit");
   RenderOptions o = options(kSanitized ? 16 : 32, kSanitized ? 256 : 1024);
-  const Film reference = run(h.program, s, o).film;
+  const Film reference = run(program, s, o).film;
+  o.samples = samples;
+  o.seed = 12;
+  const Film film = run(program, s, o).film;
+  double colour = 0, luminance = 0;
+  for (std::size_t i = 0; i < film.xyz.size(); ++i) {
+    const auto rgb = [](const std::array<double, 3>& p) {
+      return materials::linear_srgb_of_xyz({p[0], p[1], p[2]});
+    };
+    const Vec3d off = rgb(film.xyz[i]) - rgb(reference.xyz[i]);
+    colour += dot(off, off) / 3;
+    luminance += std::pow(film.xyz[i][1] - reference.xyz[i][1], 2);
+  }
+  return {colour, luminance};
+}
+
+}  // namespace
+
+TEST_CASE("where all is grey, red, green and blue err as luminance alone does") {
+  HandProgram grey, coloured;
+  grey.matte("x", 0.5);
+  // Nobody knows that it is grey.
+  coloured.matte("x", 0.5).outputs[int(vm::Output::Material)].spectral = true;
   for (const int samples : {4, 16, 64}) {
     CAPTURE(samples);
-    o.samples = samples;
-    o.seed = 12;
-    const Film film = run(h.program, s, o).film;
-    double colour = 0, luminance = 0;
-    for (std::size_t i = 0; i < film.xyz.size(); ++i) {
-      const auto rgb = [](const std::array<double, 3>& p) {
-        return materials::linear_srgb_of_xyz({p[0], p[1], p[2]});
-      };
-      const Vec3d off = rgb(film.xyz[i]) - rgb(reference.xyz[i]);
-      colour += dot(off, off) / 3;
-      luminance += std::pow(film.xyz[i][1] - reference.xyz[i][1], 2);
+    const auto [colour, luminance] = errors(grey.program, samples);
+    CHECK(std::sqrt(colour / luminance) == doctest::Approx(1).epsilon(1e-3));
+    const auto [all, bright] = errors(coloured.program, samples);
+    CHECK(all < 1.1 * 1.1 * bright);
+    CHECK(all > bright);  // or else what is compared is not the noise of colour
+  }
+}
+
+TEST_CASE("of grey matter each lamp has its exact colour, whatever wavelengths are drawn") {
+  const std::array<double, 3> lamps[] = {
+      {1, 1, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {4.6, 5.0, 5.6}};
+  // The oracle: sums over sixteenths of a nanometre of the published tables.
+  const auto exact = [](const std::array<double, 3>& rgb) {
+    Vec3d sum;
+    double white = 0;
+    for (double nm = 360; nm <= 830; nm += 0.0625) {
+      const double red = materials::rgb_red(float(nm)), green = materials::rgb_green(float(nm));
+      const double day = materials::illuminant_d65(float(nm));
+      sum += materials::cie1931(nm) *
+             (day * (rgb[0] * red + rgb[1] * green + rgb[2] * (1 - red - green)));
+      white += materials::cie1931(nm).y * day;
     }
-    INFO("ratio ", std::sqrt(colour / luminance));
-    CHECK(colour < 1.1 * 1.1 * luminance);
-    CHECK(colour > luminance);  // or else what is compared is not the noise of colour
+    return sum / white;
+  };
+  for (const auto& rgb : lamps) {
+    const Vec3d want = exact(rgb);
+    for (int i = 0; i < 1000; ++i) {
+      const Cluster c = sample_cluster((i + 0.37) / 1000, kWavelengths, Matter::Grey);
+      const auto xyz = c.xyz(c.light(rgb) * (1.0f / kWavelengths));
+      for (int k = 0; k < 3; ++k)
+        CHECK(xyz[std::size_t(k)] == doctest::Approx(want[k]).epsilon(1e-5).scale(length(want)));
+    }
   }
 }
 
