@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "renderer/samples.h"
 
@@ -16,6 +17,18 @@ constexpr int kAround = 1;
 /// Bounds of r. Chance and rare bright samples may take it anywhere; 2 is independent samples, 8
 /// the fastest that scrambled nets converge (Owen 1997: variance n^-3).
 constexpr double kSlowest = 1.75, kFastest = 8;
+
+/// That of what nets have of a pixel with an edge: variance n^-1.5 (He and Owen 2016).
+constexpr double kOfEdges = 2 * std::numbers::sqrt2;
+
+/// v(2n) over v(n) - v(2n), of which the like was r times as much one block before. Where r is
+/// below that of edges the variance is a sum of theirs and of one that falls as chance does, 1 / n:
+/// with time the latter stays, so that r was more than it is.
+double left_of_difference(double r) {
+  if (r <= 2 || r >= kOfEdges) return 1 / (r - 1);
+  const double edges = (r - 2) / ((kOfEdges - 1) * (kOfEdges - r));  // over the other
+  return (1 + edges) / (1 + (kOfEdges - 1) * edges);
+}
 
 /// Sums over the probes of one patch.
 struct Sums {
@@ -92,7 +105,7 @@ ErrorEstimate::ErrorEstimate(const PartialFilm& film)
     if (s.block() >= 1) {
       // Samples past the last whole block count as if they were independent of it.
       const double whole = block_end(s.block()) * double(s.probes);
-      variance = s.last / (ratio_around(all, across_, i % across_, i / across_) - 1) *
+      variance = s.last * left_of_difference(ratio_around(all, across_, i % across_, i / across_)) *
                  std::min(1.0, whole / s.samples);
     }
     patches_.push_back({variance / s.probes, s.samples / s.probes, s.probes});

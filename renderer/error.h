@@ -10,9 +10,11 @@
 /// what 2n samples give. Let v(n) be the variance of a mean of n samples. Then
 ///     E (A - B)^2 / 4 = v(n) - v(2n),
 /// whatever the correlation of A and B. Of v(n) = r v(2n) the factor r is found from the same
-/// difference one block earlier: it is 2 for independent samples and up to 8 for nets and smooth
-/// functions. The differences are summed over the pixels of a patch, whose tiles have much the same
-/// samples, and r is that of the patches around, since one pixel knows too little.
+/// difference one block earlier: it is 2 for independent samples, up to 8 for nets and smooth
+/// functions, and between 2 and 2.83 a sum of chance and of edges that pixels have, of which v(2n)
+/// has more of the former than r says (`left_of_difference`). The differences are summed over the
+/// pixels of a patch, whose tiles have much the same samples, and r is that of the patches around,
+/// since one pixel knows too little.
 
 #include <cstdint>
 #include <span>
