@@ -13,8 +13,9 @@
 namespace mms::renderer {
 namespace {
 
-/// Between two estimates of the error for those who watch: each takes some milliseconds.
-constexpr double kSecondsOfError = 1;
+/// Between two estimates of the error for those who watch, at least; and what part of the time they
+/// may take, as no thread adds samples meanwhile.
+constexpr double kSecondsOfError = 1, kShareOfError = 0.01;
 
 /// Samples that were dropped of which it is found out why.
 constexpr std::size_t kExplained = 64;
@@ -45,6 +46,7 @@ Job::Job(const World& world, const RenderOptions& options)
 
 Rendered Job::run() {
   begin_ = Clock::now();
+  next_error_at_ = kSecondsOfError;
   const int machine = int(std::max(1u, std::thread::hardware_concurrency()));
   const int wanted = options_.threads > 0 ? options_.threads : machine;
   const int passes = pass_of(std::uint32_t(options_.samples - 1)) + 1 - next_pass_;
@@ -247,10 +249,12 @@ void Job::show_progress() {
   const auto samples =
       int((paths_before_ + done) / (std::uint64_t(options_.width) * options_.height));
   double fraction = paths_asked_ > 0 ? double(done) / double(paths_asked_) : 1;
-  if (now - error_shown_at_ >= kSecondsOfError) {
+  if (now >= next_error_at_) {
     const std::scoped_lock lock(film_lock_);
+    const double begin = seconds();
     shown_error_ = ErrorEstimate(*film_).rmse();
-    error_shown_at_ = seconds();
+    const double end = seconds();
+    next_error_at_ = end + std::max(kSecondsOfError, (end - begin) / kShareOfError);
   }
   double left = fraction > 0 ? now * (1 - fraction) / fraction : 0;
   // Error falls at least like 1 / sqrt(samples), so no later than this.

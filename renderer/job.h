@@ -76,7 +76,7 @@ class Job {
   std::condition_variable finished_;
   int threads_ = 1;  ///< fixed before they begin
   int running_ = 0;
-  double shown_error_ = 0, error_shown_at_ = 0, saved_at_ = 0;
+  double shown_error_ = 0, next_error_at_ = 0, saved_at_ = 0;
   Report report_;
   /// The first samples dropped in scan order, as (y, x, number), at most kExplained.
   std::set<std::tuple<int, int, int>> first_dropped_;

@@ -187,7 +187,7 @@ Exit render_one(const RenderRequest& request, const RenderScript& script, const 
   }
   auto rendered = [&] {
     const ProgressLine line(progress, path);
-    options.progress = [&line](const renderer::Progress& p) { line.show(p); };
+    if (progress) options.progress = [&line](const renderer::Progress& p) { line.show(p); };
     return renderer::render(job->linked->program, job->scene, options);
   }();
   if (!rendered) return fail(Exit::Budget, rendered.error(), request);
