@@ -1,13 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DMAKE=COMMAND -DSOURCE=ROOT -DKEPT=FOLDER -DTO=FILE -P make.cmake
+# cmake -DMAKE=COMMAND -DCOMPILER=CXX -DSOURCES=FILES -DINCLUDE=FOLDERS -DKEPT=FOLDER -DTO=FILE -P make.cmake
 #
-# Runs COMMAND to write the tables to FILE, unless FOLDER (of all builds of this tree; may be empty) holds
-# those of these very sources: a minute for the first build, none for the others.
-file(GLOB sources ${SOURCE}/materials/*.h ${SOURCE}/materials/tables/*.cpp ${SOURCE}/materials/tables/*.h
-     ${SOURCE}/base/*.h)
+# Runs COMMAND, a program of the source files FILES, to write the tables to FILE, unless KEPT (of all builds
+# of this tree; may be empty) holds those of these very sources and of all that they include, as the compiler
+# says: minutes for the first build, none for the others, nor after edits to other headers.
+foreach(folder ${INCLUDE})
+  list(APPEND search -I${folder})
+endforeach()
+execute_process(COMMAND ${COMPILER} -std=c++20 -MM ${search} ${SOURCES}
+                OUTPUT_VARIABLE rules COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX REPLACE "[^ \n]+\\.o:|\\\\\n" " " files "${rules}")
+separate_arguments(files UNIX_COMMAND "${files}")
+list(SORT files)
+list(REMOVE_DUPLICATES files)
 set(all "")
-foreach(source ${sources})
-  file(SHA256 ${source} sum)
+foreach(file ${files})
+  file(SHA256 ${file} sum)
   string(APPEND all ${sum})
 endforeach()
 string(SHA256 sum "${all}")
