@@ -165,6 +165,7 @@ inline ChiSquareResult chi_square(const ChiSquareTest& test) {
   std::vector<detail::PolarPoint> pilot;
   for (int i = 0; i < test.pilot; ++i)
     if (const auto w = test.sample(pilot_random)) pilot.push_back(detail::to_polar(frame, *w));
+  const double share = std::max(double(pilot.size()), 1.0) / test.pilot;
   std::vector<Rectangle> cells;
   const double equator = std::numbers::sqrt2 / 2, round = 2 * std::numbers::pi;
   const auto below = std::partition(pilot.begin(), pilot.end(),
@@ -189,9 +190,9 @@ inline ChiSquareResult chi_square(const ChiSquareTest& test) {
   std::vector<std::pair<double, double>> pairs;
   double mass = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    // Parts of the standard deviation of a cell that has its share.
+    // Parts of the standard deviation of a cell that has its share of what is not a delta.
     const double tolerance =
-        (kSanitized ? 0.02 : 0.1) * std::sqrt(1.0 / (double(cells.size()) * test.count));
+        (kSanitized ? 0.02 : 0.1) * std::sqrt(share / (double(cells.size()) * test.count));
     const double p = detail::integrate_cell(
         cells[i], tolerance, test.count,
         [&](double t, double phi) { return 4 * t * test.pdf(detail::from_polar(frame, t, phi)); });
