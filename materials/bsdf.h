@@ -113,6 +113,8 @@ class Bsdf {
   std::optional<BsdfSample<R>> sample_smooth(int lobe, Vec3<R> wo, R u, R u1, R u2, Mode mode,
                                              const Choice& choice) const;
 
+  void find_coated_glass(Vec3<R> wo, PerNode<CoatAbove<R>>& coats) const;
+
   /// `visit(model)` for the lobe of node `i`; `none` for combiners and phase functions.
   template <class Result, class Visit>
   Result with_model(int i, Result none, Visit visit) const;
@@ -151,6 +153,18 @@ inline R lambert_share(const M& model) {
     return model.lambert_share();
   else
     return 0;
+}
+
+/// Whether the model is an interface of which it is known what a polished coat of these indices
+/// sends back.
+template <class R, class M>
+inline bool knows_coat(const M& model, const R* ior) {
+  if constexpr (std::is_same_v<M, Refraction<R>> || std::is_same_v<M, FilmDielectric<R>>)
+    return true;
+  else if constexpr (requires { model.knows_coat(ior); })
+    return model.knows_coat(ior);
+  else
+    return false;
 }
 
 template <class M>
@@ -267,7 +281,9 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
     return;
   }
   Spectrum<R> sum;
-  weigh_for_choice(*layout_, params_, std::abs(wo.z), choice.probability);
+  find_coats(*layout_, params_, wo, choice.coats, choice.lower);
+  if (layout_->transmits()) find_coated_glass(wo, choice.coats);
+  weigh_for_choice(*layout_, params_, wo, &choice.coats, choice.probability);
   for (int i = 0; i < node_count(); ++i) {
     probability[i] *= estimate(i);
     sum += probability[i];
@@ -275,7 +291,6 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
   for (int j = 0; j < kWavelengths; ++j) sum[j] = sum[j] > least ? 1 / sum[j] : R(0);
   for (int i = 0; i < node_count(); ++i) probability[i] *= sum;
   choice.any = sum[0] > 0;
-  find_coats(*layout_, params_, wo, choice.coats, choice.lower);
   for (int i = 0; i < node_count(); ++i) {
     const CoatAbove<R>& coat = choice.coats.of[i];
     if (!coat.kind.round && coat.lower < 0) continue;
@@ -290,6 +305,24 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
       return 0;
     });
   }
+}
+
+template <class R>
+void Bsdf<R>::find_coated_glass(Vec3<R> wo, PerNode<CoatAbove<R>>& coats) const {
+  const auto sent = [&](int lobe, const R* ior) {
+    return with_model(lobe, std::optional<SentBack<R>>(), [&](const auto& model) {
+      std::optional<SentBack<R>> back;
+      if (!detail::knows_coat<R>(model, ior)) return back;
+      if constexpr (requires { model.sent_back(wo, ior); })
+        back = model.sent_back(wo, ior);
+      else if constexpr (detail::CanBeSpecular<std::decay_t<decltype(model)>>)
+        back = SentBack<R>::smooth(model.terms(wo), wo, ior);
+      return back;
+    });
+  };
+  for (int i = 0; i < node_count(); ++i)
+    if (coats.of[i].base == i && coats.of[i].kind.polished)
+      find_glass(*layout_, params_, wo, i, coats, sent);
 }
 
 template <class R>
@@ -326,6 +359,10 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
                                            model.coated(wo), model.coated(wi), wo.z, wi.z);
             return 0;
           }
+        }
+        if (choice.coats.of[i].passed_once) {
+          total.f += l.f * weights.of[i].glass;
+          return 0;
         }
         if (share > 0) total.f += l.f * weights.of[i].lambert * share;
         if (share < 1) total.f += l.f * weights.of[i].other * (1 - share);
@@ -406,11 +443,12 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u,
     weigh(*layout_, params_, choice.coats, choice.lower, wo, s.wi, mode, weights);
   for (int i = 0; i < node_count(); ++i) {
     const SpecularTerms<R> t = i == lobe ? mine : terms_of(i);
+    const bool glass = node_count() > 1 && choice.coats.of[i].passed_once;
+    const Spectrum<R>& weight = glass ? weights.of[i].glass : weights.of[i].other;
     for (int j = 0; j < kWavelengths; ++j) {
       if (!reflect && t.eta[j] != eta) continue;
       const R scale = reflect || mode == Mode::Importance ? R(1) : 1 / (eta * eta);
-      s.f[j] += weights.of[i].other[j] * (reflect ? t.reflect_weight : t.transmit_weight)[j] *
-                scale / cos_i;
+      s.f[j] += weight[j] * (reflect ? t.reflect_weight : t.transmit_weight)[j] * scale / cos_i;
       s.pdf[j] += choice.probability.of[i][j] *
                   (reflect ? t.reflect_probability : t.transmit_probability)[j];
     }

@@ -17,6 +17,18 @@
 /// Where the index is above 1, facets, `glossy` and `rough_matte` right below the coat get
 ///   base: g(wo) g(wi)           (materials/coated.h), whose mean over the lobe is 1 - F
 ///
+/// Where it is above 1 and the coat polished, that is of mirrors alone, interfaces right below get
+/// what passes it once if light changes sides, twice if it stays outside, and never if it stays
+/// inside, along the directions outside; the same of the layer of a `coat`. The mirrors reflect the
+/// rest (materials/glass_coat.h), and seen from inside nothing else:
+///   base: T(outside), T T' / max(T, T', T(1)), or 1
+/// so that lossless glass is 1 from both sides: smooth 1e-5 (`dielectric`, `beckmann_dielectric`,
+/// `film_dielectric`, `phong_glass`, `refraction`), round facets of roughness from 0.1 1e-3, below
+/// it 3e-3, for indices of both between 1 and 4. Stretched facets never gain, and lose up to 0.04
+/// at anisotropy 0.5, 0.1 at 0.9, where a coat sends most back. Under rough coats, and
+/// `phong_glass` that is rough, interfaces get 1 - max(F, F') as if both directions were outside,
+/// and lose more.
+///
 /// All are symmetric. A lossless base under a lossless polished coat then has albedo 1 within 1e-4
 /// (stretched facets within 3e-4, beyond anisotropy 0.9 within 1e-3); under a coat of which no more
 /// is known it never exceeds 1, as min(F, F') <= F and 1 - max(F, F') <= 1 - F. A specular coat
@@ -62,10 +74,12 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <type_traits>
 
 #include "materials/coated.h"
 #include "materials/facets.h"
 #include "materials/fresnel.h"
+#include "materials/glass_coat.h"
 #include "materials/layout.h"
 #include "materials/lobe.h"
 #include "materials/microfacet.h"
@@ -80,13 +94,14 @@ namespace mms::materials {
 template <class R>
 struct NodeWeight {
   Spectrum<R> other{R(1)}, lambert{R(1)};
+  Spectrum<R> glass{R(1)};  ///< for interfaces right below a polished coat
   /// Where a coat is right above: what it lets through along wi, and the factor for lobes with a G
   /// of materials/coated.h, times G G'.
   Spectrum<R> through_i{}, coated{};
 
   /// The weight of a child that is a part of the node.
   NodeWeight operator*(const Spectrum<R>& part) const {
-    return {other * part, lambert * part, through_i, coated * part};
+    return {other * part, lambert * part, glass * part, through_i, coated * part};
   }
 };
 
@@ -96,6 +111,7 @@ struct CoatKind {
   CoatLobe<R> lobe{};  ///< where there is one
   int mixture = -1;    ///< where there are several, the node that they are the children of
   bool round = false;  ///< known, and not stretched; of several, also the same at each wavelength
+  bool polished = false;  ///< nothing but mirrors
 
   bool known() const { return lobe.known() || mixture >= 0; }
 };
@@ -105,10 +121,15 @@ template <class R>
 struct CoatAbove {
   const R* ior = nullptr;  ///< its indices; null: there is none
   CoatKind<R> kind{};
-  bool nested = false;  ///< there is a second coat right above that one
-  int lower = -1;       ///< then the node of which materials/two_coats.h knows it
+  bool nested = false;       ///< there is a second coat right above that one
+  int lower = -1;            ///< then the node of which materials/two_coats.h knows it
+  int base = -1;             ///< the node right below it
+  const R* layer = nullptr;  ///< the numbers of its `coat`, if it is one
+  bool passed_once = false;  ///< by what changes sides at this lobe (materials/glass_coat.h)
+  bool over_glass = false;   ///< such lobes are all or a part of what lies below
   CoatAlong<R> o{};
   Spectrum<R> left_o{}, through_o{};  ///< what is left of light by this coat, and by all that count
+  Spectrum<R> mirrored{};             ///< over glass: what the coat reflects
 
   /// Whether all that lies above is known to a lobe that is not stretched.
   bool solvable() const { return nested ? lower >= 0 : kind.round || !kind.known(); }
@@ -140,9 +161,10 @@ namespace detail {
 
 template <class R>
 inline void weigh_fresnel_mix(const CoatAbove<R>& mix, const LowerCoat<R>& lower,
-                              const CoatAlong<R>& i, R cos_i, const R* ior_above,
+                              const CoatAlong<R>& i, Vec3<R> wo, Vec3<R> wi, const R* ior_above,
                               const NodeWeight<R>& w, NodeWeight<R>& base, NodeWeight<R>& coat) {
   const CoatAlong<R>& o = mix.o;
+  const R cos_i = std::abs(wi.z);
   const bool solved = mix.lower >= 0;
   const Spectrum<R> left_i = solved ? lower.along(i, cos_i) : i.through;
   R kept = 1, last_above = 0;
@@ -160,6 +182,13 @@ inline void weigh_fresnel_mix(const CoatAbove<R>& mix, const LowerCoat<R>& lower
     reflects[j] = mix.kind.known() && eta > 1 ? (o.reflected[j] + i.reflected[j]) / 2
                                               : std::min(o.reflected[j], i.reflected[j]);
     base.other[j] = w.other[j] * std::min(o.through[j], i.through[j]);
+    if (mix.over_glass && eta > 1) {
+      reflects[j] = mix.mirrored[j];
+      base.glass[j] =
+          w.other[j] * glass_factor(wo.z > 0, wi.z > 0, o.through[j], i.through[j], eta);
+    } else {
+      base.glass[j] = base.other[j];
+    }
     // Elsewhere the factor of a mix above stays in its bounded form: w.other, not w.lambert.
     base.lambert[j] = kept > 0 ? (both ? w.coated[j] : w.other[j]) * left / kept : R(0);
     base.coated[j] = (solved && both ? w.coated[j] : w.other[j]) * left;
@@ -195,15 +224,11 @@ inline R layer_transmittance(R depth, R ior, R c) {
   return inside2 > 0 ? std::exp(-depth / std::sqrt(inside2)) : R(0);
 }
 
-/// Dims `base`, of any kind, by `through(j)`. The numbers of a coat are at `p`.
-template <class R, class Base>
-inline void dim_by_layer(const R* p, R cos_o, R cos_i, Base base) {
-  const R thickness = non_negative(p[0]);
-  const R *absorption = p + 1, *ior = p + 1 + kWavelengths;
-  for (int j = 0; j < kWavelengths; ++j) {
-    const R depth = std::min(thickness * non_negative(absorption[j]), R(1e6));
-    base(j, layer_transmittance(depth, ior[j], cos_o) * layer_transmittance(depth, ior[j], cos_i));
-  }
+/// The same for wavelength j of a coat whose numbers are at `p`.
+template <class R>
+inline R layer_transmittance(const R* p, int j, R c) {
+  const R depth = std::min(non_negative(p[0]) * non_negative(p[1 + j]), R(1e6));
+  return layer_transmittance(depth, p[1 + kWavelengths + j], c);
 }
 
 /// What the `layer` of that node leaves to its base.
@@ -247,6 +272,17 @@ inline bool weigh_by_numbers(const Layout::Node& node, const R* p, int i, Weight
     default:
       return false;
   }
+}
+
+/// Calls `visit(node, weight)` for what `node` is a sum of, its own weight being in `weights`.
+template <class R, class Visit>
+inline void for_each_part(const Layout& layout, const R* params, int node,
+                          PerNode<Spectrum<R>>& weights, Visit visit) {
+  const Layout::Node& n = layout.nodes()[node];
+  if (!weigh_by_numbers(n, params + n.first_param, node, weights.of.data()))
+    return visit(node, weights.of[node]);
+  for (int c = 0; c < n.child_count; ++c)
+    for_each_part(layout, params, n.children[c], weights, visit);
 }
 
 /// The lobe of a node if it is one whose spread is known; a mirror has no tables.
@@ -308,7 +344,7 @@ inline CoatKind<R> coat_kind(const Layout& layout, const R* params, int node) {
         uneven |= std::count(weight.v.begin(), weight.v.end(), weight[0]) != kWavelengths;
         sum += weight[0];
       });
-  if (!known || !rough) return {};
+  if (!known || !rough) return {{}, -1, false, known};
   if (count == 1) return {last, -1, !stretched};
   return {{}, node, !stretched && !uneven && sum > 0 && count <= CoatParts<R>::kMost};
 }
@@ -385,12 +421,16 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
     const R* p = params + node.first_param;
     for (int c = 0; c < node.child_count; ++c) above[node.children[c]] = above[i];
     const int a = node.children[0], b = node.children[1];
-    const auto coated = [&](int base, int coat, const R* ior) {
+    const auto coated = [&](int base, int coat, const R* ior, const R* layer) {
       if (std::all_of(ior, ior + kWavelengths, [](R n) { return n == 1; })) return;
       const CoatKind<R> kind = detail::coat_kind(layout, params, coat);
       CoatAbove<R>& below = above[base];
-      below = {ior, kind, above[i].ior != nullptr, -1,
-               detail::coat_along(layout, params, ior, kind, wo)};
+      below = {.ior = ior,
+               .kind = kind,
+               .nested = above[i].ior != nullptr,
+               .base = base,
+               .layer = layer,
+               .o = detail::coat_along(layout, params, ior, kind, wo)};
       below.left_o = below.through_o = below.o.through;
       if (!detail::knows_lower(above[i], kind)) return;
       below.lower = base;
@@ -401,11 +441,42 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
         below.through_o[j] = below.left_o[j] * (two.known(j) ? above[i].o.through[j] : R(1));
     };
     if (node.lobe == Lobe::FresnelMix)
-      coated(a, b, p);
+      coated(a, b, p, nullptr);
     else if (node.lobe == Lobe::Coat)
-      coated(b, a, p + 1 + kWavelengths);
+      coated(b, a, p + 1 + kWavelengths, p);
     else if (node.lobe == Lobe::Layer && nodes[a].lobe == Lobe::Sheen)
       above[b] = {};
+  }
+}
+
+/// What the mirrors of a polished coat reflect along `wo`, and which lobes of what lies right below
+/// get the weight of interfaces. `sent_back(lobe, ior)` is what materials/glass_coat.h says of a
+/// lobe; none where it is no interface, or nothing is known of it. What is sent back has passed the
+/// layer of the coat twice.
+template <class R, class Ask>
+inline void find_glass(const Layout& layout, const R* params, Vec3<R> wo, int base,
+                       PerNode<CoatAbove<R>>& coats, const Ask& sent_back) {
+  CoatAbove<R>& coat = coats.of[base];
+  Spectrum<R> share, sent;
+  PerNode<Spectrum<R>> weights;
+  weights.of[base] = Spectrum<R>(R(1));
+  detail::for_each_part(layout, params, base, weights, [&](int lobe, const Spectrum<R>& weight) {
+    std::optional<SentBack<R>> back = sent_back(lobe, coat.ior);
+    if (!back) return;
+    coats.of[lobe].passed_once = coat.over_glass = true;
+    for (int j = 0; coat.layer && j < kWavelengths; ++j) {
+      const R through = detail::layer_transmittance(coat.layer, j, back->cosine[j]);
+      back->share[j] *= through * through;
+    }
+    share += weight;
+    sent += weight * back->share;
+  });
+  if (!coat.over_glass) return;
+  coat.mirrored = coat.o.reflected;
+  for (int j = 0; j < kWavelengths; ++j) {
+    if (!(relative_eta(coat.ior[j], Vec3<R>{0, 0, 1}) > 1)) continue;
+    if (wo.z < 0) coat.mirrored[j] *= std::max(1 - share[j], R(0));
+    coat.mirrored[j] += sent[j];
   }
 }
 
@@ -425,7 +496,7 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
       return;
     }
     detail::weigh_fresnel_mix(coat, lower[base],
-                              detail::coat_along(layout, params, coat.ior, coat.kind, wi), cos_i,
+                              detail::coat_along(layout, params, coat.ior, coat.kind, wi), wo, wi,
                               coats.of[i].ior, weights.of[i], of_base, of_coat);
   };
   auto& w = weights.of;
@@ -451,11 +522,14 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
         break;
       case Lobe::Coat:
         under_coat(i, b, p + 1 + kWavelengths, w[b], w[a]);
-        detail::dim_by_layer(p, cos_o, cos_i, [&](int j, R through) {
-          w[b].other[j] *= through;
-          w[b].lambert[j] *= through;
-          w[b].coated[j] *= through;
-        });
+        for (int j = 0; j < kWavelengths; ++j) {
+          const R along_o = detail::layer_transmittance(p, j, cos_o),
+                  along_i = detail::layer_transmittance(p, j, cos_i);
+          w[b].other[j] *= along_o * along_i;
+          w[b].lambert[j] *= along_o * along_i;
+          w[b].coated[j] *= along_o * along_i;
+          w[b].glass[j] *= (wo.z > 0 ? along_o : R(1)) * (wi.z > 0 ? along_i : R(1));
+        }
         break;
       default:
         break;  // a lobe
@@ -500,11 +574,25 @@ inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const CoatAbove<R>& coa
   return f;
 }
 
-/// Factors for choosing a lobe before wi is known: `fresnel_mix` takes F and 1 - F at wo.
-/// 0 only where `weigh` is 0 for every wi.
+/// Factors for choosing a lobe before wi is known: `fresnel_mix` takes F and 1 - F at wo, over
+/// glass what its mirror reflects and the rest. 0 only where `weigh` is 0 for every wi. `coats` are
+/// null where there are none.
 template <class R>
-inline void weigh_for_choice(const Layout& layout, const R* params, R cos_o,
+inline void weigh_for_choice(const Layout& layout, const R* params, Vec3<R> wo,
+                             const std::type_identity_t<PerNode<CoatAbove<R>>>* coats,
                              PerNode<Spectrum<R>>& weights) {
+  const R cos_o = std::abs(wo.z);
+  const auto split = [&](const R* ior, int base, int coat, Spectrum<R>& reflected,
+                         Spectrum<R>& transmitted) {
+    const CoatAbove<R>* above = coats ? &coats->of[base] : nullptr;
+    if (above && above->ior == ior && above->over_glass) {
+      reflected = above->mirrored;
+      transmitted = Spectrum<R>::map([](R r) { return std::max(1 - r, R(0)); }, reflected);
+    } else {
+      detail::choose_fresnel_mix(ior, detail::coat_kind(layout, params, coat), cos_o, reflected,
+                                 transmitted);
+    }
+  };
   const auto nodes = layout.nodes();
   auto& w = weights.of;
   w[nodes.size() - 1] = Spectrum<R>(R(1));
@@ -522,19 +610,21 @@ inline void weigh_for_choice(const Layout& layout, const R* params, R cos_o,
       }
       case Lobe::FresnelMix: {
         Spectrum<R> reflected, transmitted;
-        detail::choose_fresnel_mix(p, detail::coat_kind(layout, params, b), cos_o, reflected,
-                                   transmitted);
+        split(p, a, b, reflected, transmitted);
         w[a] = w[i] * transmitted;
         w[b] = w[i] * reflected;
         break;
       }
       case Lobe::Coat: {
         Spectrum<R> reflected, transmitted;
-        detail::choose_fresnel_mix(p + 1 + kWavelengths, detail::coat_kind(layout, params, a),
-                                   cos_o, reflected, transmitted);
+        split(p + 1 + kWavelengths, b, a, reflected, transmitted);
         w[a] = w[i] * reflected;
         w[b] = w[i] * transmitted;
-        detail::dim_by_layer(p, cos_o, R(1), [&](int j, R through) { w[b][j] *= through; });
+        // Light inside that stays there never meets the layer.
+        if (wo.z < 0 && coats && coats->of[b].over_glass) break;
+        for (int j = 0; j < kWavelengths; ++j)
+          w[b][j] *=
+              detail::layer_transmittance(p, j, cos_o) * detail::layer_transmittance(p, j, R(1));
         break;
       }
       default:

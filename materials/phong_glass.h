@@ -37,6 +37,7 @@ struct PhongGlass {
         transmitted(weight_at(p + 2 * kWavelengths + 1)) {}
 
   bool specular() const { return n > R(kMaxExponent); }
+  bool knows_coat(const R*) const { return specular(); }  ///< materials/glass_coat.h
 
   Spectrum<R> estimate(Vec3<R> wo) const {
     return interface_estimate(ior, wo, reflected, transmitted, !specular());

@@ -4,6 +4,7 @@
 # Runs COMMAND, a program of the source files FILES, to write the tables to FILE, unless KEPT (of all builds
 # of this tree; may be empty) holds those of these very sources and of all that they include, as the compiler
 # says: minutes for the first build, none for the others, nor after edits to other headers.
+list(FILTER SOURCES INCLUDE REGEX "[.]cpp$")
 foreach(folder ${INCLUDE})
   list(APPEND search -I${folder})
 endforeach()

@@ -2,7 +2,7 @@
 #pragma once
 
 /// \file
-/// What one bounce off an interface of facets loses, by quadrature over their slopes: along the
+/// What one bounce off an interface of facets does, by quadrature over their slopes: along the
 /// direction, and for each of these across it. Nothing here is used when rendering.
 
 #include <algorithm>
@@ -43,11 +43,11 @@ class Rules {
 
   /// Integral of `f(x)` over [0, 1] by `n` points.
   template <class F>
-  static double integrate(const F& f, int n) {
+  static auto integrate(const F& f, int n) {
     static const Rules rules;
     const Rule& rule = rules.of_[std::min(n, kMost) - 1];
-    double sum = 0;
-    for (int i = 0; i < rule.n; ++i) sum += rule.w[i] * f(rule.x[i]);
+    decltype(f(0.0)) sum{};
+    for (int i = 0; i < rule.n; ++i) sum += f(rule.x[i]) * rule.w[i];
     return sum;
   }
 
@@ -79,16 +79,18 @@ class Cuts {
   /// each, where f may be as a square root: `points` in a part as long as all, and fewer the
   /// shorter.
   template <class F>
-  double integrate(const F& f, int points) {
+  auto integrate(const F& f, int points) {
     std::sort(at_.begin(), at_.begin() + size_);
-    double sum = 0, a = from_;
+    decltype(f(0.0)) sum{};
+    double a = from_;
     for (int i = 0; i <= size_; ++i) {
       const double b = i < size_ ? at_[i] : 1;
       if (b - a > kLeast)
-        sum += Rules::integrate(
-                   [&](double s) { return 6 * s * (1 - s) * f(a + (b - a) * s * s * (3 - 2 * s)); },
-                   kFew + int(points * std::sqrt((b - a) / 2))) *
-               (b - a);
+        sum +=
+            Rules::integrate(
+                [&](double s) { return f(a + (b - a) * s * s * (3 - 2 * s)) * (6 * s * (1 - s)); },
+                kFew + int(points * std::sqrt((b - a) / 2))) *
+            (b - a);
       a = b;
     }
     return sum;
@@ -102,12 +104,20 @@ class Cuts {
   int size_ = 0;
 };
 
-/// The loss at one facet's interface of relative index `eta`: what it reflects or refracts and
-/// other facets then take, or what leaves to the wrong side. A facet's normal is (x, y, 1), not of
-/// unit length, with x towards `wo` and y across; parts end where reflection or refraction leaves
-/// the surface grazing, or is just total, all of which are conics in (x, y). `points`: see Cuts.
-template <class Facets>
-double interface_loss(const Facets& facets, double eta, Vec3d wo, int points) {
+/// What a facet sends one way, up or down: its share of what meets it, how much of that other
+/// facets then take, and the |cosine| of where it leaves the surface. What leads to the wrong side
+/// is all taken.
+struct Way {
+  double share = 0, taken = 1, cosine = 0;
+};
+
+/// Mean over the facets that `wo` sees, each an interface of relative index `eta`, of `value(up,
+/// down)`, a number or a sum of some. A facet's normal is (x, y, 1), not of unit length, with x
+/// towards `wo` and y across; parts end where reflection or refraction leaves the surface grazing,
+/// or is just total, all of which are conics in (x, y). `points`: see Cuts.
+template <class Facets, class Value>
+auto interface_mean(const Facets& facets, double eta, Vec3d wo, int points, const Value& value) {
+  using Result = decltype(value(Way(), Way()));
   using Slopes = decltype(slopes_of(facets));
   const double z = wo.z, s = std::hypot(wo.x, wo.y), s2 = s * s;
   const double cx = s > 0 ? wo.x / s : 1, cy = s > 0 ? wo.y / s : 0;
@@ -122,17 +132,17 @@ double interface_loss(const Facets& facets, double eta, Vec3d wo, int points) {
     const double c = std::abs(wz);
     return g / (z * c + hidden_wo * c + g);
   };
-  const auto lost = [&](double x, double y) {
+  const auto both_ways = [&](double x, double y) {
     const double facing = z + s * x, length2 = 1 + x * x + y * y, inverse = 1 / std::sqrt(length2);
     const double c = std::min(1.0, facing * inverse), twice = 2 * facing / length2;
     const FresnelSplit<double> f = fresnel_split(c, eta);
-    double sum = f.reflected;
-    if (twice > z) sum *= hidden(twice * x - s, twice * y, twice - z);
-    if (!(f.transmitted > 0)) return sum;
+    Way up{f.reflected}, down{f.transmitted};
+    if (twice > z) up = {up.share, hidden(twice * x - s, twice * y, twice - z), twice - z};
+    if (!(f.transmitted > 0)) return value(up, down);
     const double bend = e / (c + std::sqrt(std::max(0.0, refraction_g2(c, eta)))) * inverse;
-    const double down = (bend - z) / eta;
-    return sum +
-           f.transmitted * (down < 0 ? hidden((bend * x - s) / eta, bend * y / eta, down) : 1.0);
+    const double fall = (bend - z) / eta;
+    if (fall < 0) down = {down.share, hidden((bend * x - s) / eta, bend * y / eta, fall), -fall};
+    return value(up, down);
   };
   const auto row = [&](double x) {
     const double t = x / along, width = across * Slopes::spread(t), middle = shear * x;
@@ -153,10 +163,10 @@ double interface_loss(const Facets& facets, double eta, Vec3d wo, int points) {
     const auto at = [&](double m) {
       const double u = Slopes::slope(m), v = u * width / across;
       const double weight = Slopes::derivative(m, u) * Slopes::density(t * t + v * v);
-      return weight > 1e-30 ? weight * lost(x, middle + width * u) : 0.0;
+      return weight > 1e-30 ? both_ways(x, middle + width * u) * weight : Result{};
     };
-    const double sum = cuts.integrate(at, points / 2);  // rows are smoother than their sum
-    return (z + s * x) * width * sum;
+    return cuts.integrate(at, points / 2) *  // rows are smoother than their sum
+           ((z + s * x) * width);
   };
   const double away = s > 0 ? Slopes::place(-z / s / along) : -1;  // where facets turn away
   Cuts cuts(away);
@@ -177,10 +187,18 @@ double interface_loss(const Facets& facets, double eta, Vec3d wo, int points) {
   }
   const auto along_slopes = [&](double m) {
     const double t = Slopes::slope(m), x = along * t;
-    return z + s * x > 0 ? Slopes::derivative(m, t) * row(x) : 0.0;
+    return z + s * x > 0 ? row(x) * Slopes::derivative(m, t) : Result{};
   };
-  const double sum = cuts.integrate(along_slopes, points);
-  return (round ? 2 : 1) * along * sum / (kPi<double> * ax * ay * (z + hidden_wo));
+  return cuts.integrate(along_slopes, points) *
+         ((round ? 2 : 1) * along / (kPi<double> * ax * ay * (z + hidden_wo)));
+}
+
+/// What one bounce loses: what other facets take.
+template <class Facets>
+double interface_loss(const Facets& facets, double eta, Vec3d wo, int points) {
+  return interface_mean(facets, eta, wo, points, [](const Way& up, const Way& down) {
+    return up.share * up.taken + down.share * down.taken;
+  });
 }
 
 }  // namespace mms::materials::tables

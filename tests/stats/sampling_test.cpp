@@ -151,7 +151,9 @@ TEST_CASE("pdf of a delta is how often each wavelength as the hero would have le
       mix(dielectric(1.5), refraction(1.5), ramp(0.2, 0.8)),
       slab(ramp(1.6, 1.4), 0.1, ramp(0.2, 3)),
       phong_glass(ramp(1.6, 1.4), 1e9),
-      conductor(ramp(0.2, 1), 3)};
+      conductor(ramp(0.2, 1), 3),
+      coat(mirror(0.9), dielectric(ramp(1.6, 1.4)), 0.1, ramp(0.2, 2), 1.5),
+      fresnel_mix(mix(dielectric(1.5), matte(0.5), 0.3), mirror(1), ramp(1.3, 2.5))};
   const int n = 4000;
   for (const Material& m : materials) {
     const materials::Layout layout = m.layout();

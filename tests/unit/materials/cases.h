@@ -103,6 +103,17 @@ inline std::vector<Case> smooth_cases() {
   put("beckmann_dielectric anisotropic", beckmann_dielectric(1.5, 0.4, 1, 1, 0.8));
   put("beckmann_dielectric anisotropic across, dispersive",
       beckmann_dielectric(ramp(1.6, 1.4), 0.6, ramp(0.5, 1), 0.8, -0.5));
+  put("coat over glass", coat(mirror(1), dielectric(1.5, 0.3), 0, 0, 1.5));
+  put("coat over dispersive glass, absorbing",
+      coat(mirror(ramp(0.6, 1)), dielectric(ramp(1.6, 1.4), 0.5, ramp(0.5, 1), ramp(1, 0.6)), 0.2,
+           ramp(0.1, 1), ramp(1.4, 1.7)));
+  put("coat over a mixture with glass",
+      fresnel_mix(mix(matte(0.8), scale(beckmann_dielectric(1.3, 0.6, 1, 1, 0.5), ramp(1, 0.7)),
+                      ramp(0.2, 0.9)),
+                  microfacet(1, 0), 2.2));
+  put("coat over glass of a lower index", coat(mirror(1), dielectric(0.7, 0.4), 0, 0, 1.5));
+  put("two coats over glass",
+      coat(mirror(1), fresnel_mix(dielectric(1.5, 0.4), mirror(1), 1.3), 0, 0, 1.7));
   return c;
 }
 

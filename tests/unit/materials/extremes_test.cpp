@@ -45,6 +45,9 @@ std::vector<Material> extreme_materials() {
       m.push_back(dielectric(ramp(0.9, 1.1), r, 1, 1, 0, lobe));
       for (double ior : {1 + 1e-7, 1.001, 1.5, 0.25, 1e20})
         for (double a : {1.0, -1.0}) m.push_back(dielectric(ior, r, 1, 1, a, lobe));
+      for (double ior : {1 + 1e-7, 1.5, 0.25, 1e20})
+        for (double above : {1 + 1e-7, 1.5, 0.7, 1e20})
+          m.push_back(coat(mirror(1), dielectric(ior, r, 1, 1, 0, lobe), 0.1, 1, above));
     }
   }
   for (double g = 1e-12; g < 1e12; g *= 30) {

@@ -67,7 +67,7 @@ Vec3<float> any_direction(stats::Random& random, Vec3<float> other) {
 /// What a combiner is given; `layered`: what a layer has on top.
 Material any_child(bool layered, stats::Random& random) {
   const double x = random.next(), y = 2 * random.next() - 1, gloss = std::pow(10, 6 * x - 1);
-  switch (int(random.next() * (layered ? 11 : 9))) {
+  switch (int(random.next() * (layered ? 13 : 11))) {
     case 0:
       return mirror(1);
     case 1:
@@ -88,6 +88,11 @@ Material any_child(bool layered, stats::Random& random) {
       return fresnel_mix(y > 0 ? matte(1) : tinted(Lobe::RoughMatte, 1, {x}),
                          y > 0 ? microfacet(1, x) : glossy(1, gloss),
                          1 + std::abs(any_number(random)));
+    case 9:
+      return dielectric(any_number(random), x, 1, 1, y);
+    case 10:
+      return coat(mirror(1), beckmann_dielectric(1 + std::abs(any_number(random)), x), 0.1, 1,
+                  1 + std::abs(any_number(random)));
     default:
       return tinted(Lobe::Sheen, 1, {any_number(random)});
   }

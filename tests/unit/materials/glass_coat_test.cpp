@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// Glass below a polished coat: what both together keep, from outside and from inside. The first
+// bounce of rough glass is as Walter et al. (2007) write it, times what the coat lets through.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include "tests/unit/materials/albedo.h"
+#include "tests/unit/materials/cases.h"
+#include "tests/unit/materials/walter.h"
+
+using namespace mms;
+using namespace mms::test;
+using materials::Bsdf;
+using materials::Mode;
+
+namespace {
+
+/// The sum of the deltas that light along `wo` is sent to, or of those on one side.
+double deltas(const Material& m, Vec3d wo, bool reflected = true, bool transmitted = true) {
+  const materials::Layout layout = m.layout();
+  const auto p = m.params<double>();
+  const Bsdf<double> bsdf(layout, p.data());
+  const auto choice = bsdf.choose(wo);
+  double sum = 0;
+  std::set<bool> seen;
+  constexpr int kDraws = 4096;
+  for (int k = 0; k < kDraws && seen.size() < 2; ++k) {
+    const auto s = bsdf.sample(wo, (k + 0.5) / kDraws, 0.5, 0.5, Mode::Importance, choice);
+    if (!s || !s->specular || !seen.insert(s->transmitted).second) continue;
+    if (s->transmitted ? transmitted : reflected) sum += s->f[0] * std::abs(s->wi.z);
+  }
+  return sum;
+}
+
+bool smooth_everywhere(const Material& m) {
+  const materials::Layout layout = m.layout();
+  return Bsdf<double>(layout, m.params<double>().data()).specular_only();
+}
+
+/// What comes back of light along `wo` from `m`, which is glass of `facets` and index `glass` below
+/// a polished coat of index `coat`.
+template <class Facets>
+double coated_albedo(const Material& m, const Facets& facets, double glass, double coat, Vec3d wo) {
+  const bool outside = wo.z > 0;
+  const auto through = [&](double z) { return 1 - textbook_fresnel(std::abs(z), coat); };
+  const auto weight = [&](Vec3d wi) {
+    const bool same = wi.z > 0;
+    if (!same) return through(outside ? wo.z : wi.z);
+    return outside ? through(wo.z) * through(wi.z) / through(1) : 1.0;
+  };
+  return glass_albedo(m, facets, glass, wo, weight) + deltas(m, wo);
+}
+
+/// The range of what is met, and where its ends are.
+struct Range {
+  double least = 2, most = 0;
+  std::string where[2];
+  void add(double a, const std::string& at) {
+    if (a < least) least = a, where[0] = at;
+    if (a > most) most = a, where[1] = at;
+  }
+  std::string text() const {
+    return std::to_string(least - 1) + " (" + where[0] + ") to " + std::to_string(most - 1) + " (" +
+           where[1] + ")";
+  }
+};
+
+double place(int k, double step) { return std::fmod(k * step, 1.0); }
+double between(double least, double most, double at) { return least * std::pow(most / least, at); }
+
+/// Degrees from the normal, outside and inside; the last two are about the critical angle.
+double angle(int k, double glass) {
+  constexpr double all[] = {0, 30, 60, 75, 85, 89, 89.99};
+  const int count = int(std::size(all)), i = k / 2 % (count + 2);
+  const double critical = std::asin(1 / glass) * 180 / kPi<double>;
+  const double degrees = i < count ? all[i] : critical - 4 * place(k, 0.7549) * (i - count + 0.2);
+  return k % 2 ? degrees : 180 - degrees;
+}
+
+std::string text(double glass, double coat, double roughness, double degrees) {
+  return std::to_string(glass) + " under " + std::to_string(coat) + ", roughness " +
+         std::to_string(roughness) + " at " + std::to_string(degrees);
+}
+
+template <class Facets>
+void check_round(const std::string& name, Lobe lobe, double least, double most, double bound) {
+  Range range;
+  for (int k = 1; k <= (kSanitized ? 8 : 1000); ++k) {
+    const double glass = between(1.02, 3.9, place(k, 0.8192)),
+                 ior = between(1.01, 3, place(k, 0.5497));
+    const double roughness = least + (most - least) * std::pow(place(k, 0.6710), 1.5);
+    const double alpha = roughness * roughness, degrees = angle(k, glass);
+    const Material base = dielectric(glass, roughness, 1, 1, 0, lobe);
+    const Material m = k % 3 ? coat(mirror(1), base, 0, 0, ior) : fresnel_mix(base, mirror(1), ior);
+    if (smooth_everywhere(m)) continue;  // it hardly bends
+    const double a = coated_albedo(m, Facets{alpha, alpha}, glass, ior, direction(degrees, 0.4));
+    const std::string at = text(glass, ior, roughness, degrees);
+    range.add(a, at);
+    CHECK_MESSAGE(std::abs(a - 1) < bound, name, " ", at, ": ", a - 1);
+  }
+  MESSAGE(name, " under a polished coat: albedo - 1 from ", range.text());
+}
+
+}  // namespace
+
+TEST_CASE("white rough glass under a polished coat is lossless within 1e-3, from both sides") {
+  check_round<GgxFacets>("dielectric", Lobe::Dielectric, 0.1, 1, 1e-3);
+  check_round<BeckmannFacets>("beckmann_dielectric", Lobe::BeckmannDielectric, 0.1, 1, 1e-3);
+}
+
+TEST_CASE("nearly smooth glass under a polished coat is lossless within 3e-3") {
+  check_round<GgxFacets>("dielectric", Lobe::Dielectric, 0.05, 0.1, 3e-3);
+  check_round<BeckmannFacets>("beckmann_dielectric", Lobe::BeckmannDielectric, 0.05, 0.1, 3e-3);
+}
+
+TEST_CASE("smooth glass under a polished coat is lossless, from both sides") {
+  struct Row {
+    std::string name;
+    Material (*make)(double ior);
+  };
+  const Row rows[] = {
+      {"dielectric", [](double n) { return dielectric(n); }},
+      {"beckmann_dielectric", [](double n) { return beckmann_dielectric(n); }},
+      {"film_dielectric", [](double n) { return film_dielectric(n, 1.38, 3e-7, 5e-7); }},
+      {"phong_glass", [](double n) { return phong_glass(n, 1e12); }},
+      {"refraction", [](double n) { return refraction(n); }}};
+  for (const Row& row : rows)
+    for (int k = 1; k <= 300; ++k) {
+      const double glass = between(1.02, 3.9, place(k, 0.8192)),
+                   ior = between(1.01, 3, place(k, 0.5497)), degrees = angle(k, glass);
+      const double a =
+          deltas(fresnel_mix(row.make(glass), mirror(1), ior), direction(degrees, 0.4));
+      CHECK_MESSAGE(std::abs(a - 1) < 1e-5, row.name, " ", text(glass, ior, 0, degrees), ": ", a);
+    }
+}
+
+TEST_CASE("stretched glass under a polished coat never gains") {
+  for (const double anisotropy : {0.3, -0.5, 0.9, -0.9}) {
+    Range range;
+    for (int k = 1; k <= (kSanitized ? 4 : 24); ++k) {
+      const double glass = between(1.02, 3.9, place(k, 0.8192)),
+                   ior = between(1.01, 3, place(k, 0.5497)), degrees = angle(k, glass);
+      const double roughness = 0.15 + 0.85 * place(k, 0.6710);
+      const auto alpha = materials::Alpha<double>::from(roughness, anisotropy);
+      const Material m = coat(mirror(1), dielectric(glass, roughness, 1, 1, anisotropy), 0, 0, ior);
+      const double a = coated_albedo(m, GgxFacets{alpha.ax, alpha.ay}, glass, ior,
+                                     direction(degrees, 1.5 * place(k, 0.3019)));
+      range.add(a, text(glass, ior, roughness, degrees));
+    }
+    CHECK(range.most < 1 + 1e-3);
+    CHECK(range.least > (std::abs(anisotropy) > 0.5 ? 0.9 : 0.96));
+    MESSAGE("anisotropy ", anisotropy, ": albedo - 1 from ", range.text());
+  }
+}
+
+TEST_CASE("a mixture of glass and matte under a polished coat is lossless") {
+  for (const double share : {0.2, 0.7})
+    for (double degrees : {0.0, 50.0, 85.0, 100.0, 130.0, 175.0}) {
+      const Material m = coat(mirror(1), mix(matte(1), dielectric(1.7), share), 0, 0, 1.4);
+      const double a = albedo(m, degrees) + deltas(m, direction(degrees, 0));
+      CHECK_MESSAGE(std::abs(a - 1) < 1e-4, share, " at ", degrees, ": ", a - 1);
+    }
+}
+
+TEST_CASE("light that changes sides passes the layer of a coat once") {
+  const double depth = 0.7, ior = 1.4, glass = 1.7;
+  const Material clear = coat(mirror(1), dielectric(glass), 0, 1, ior);
+  const Material dim = coat(mirror(1), dielectric(glass), depth, 1, ior);
+  for (double degrees : {0.0, 40.0, 80.0}) {
+    const Vec3d out = direction(degrees, 0.3);
+    const double s = std::sin(degrees * kPi<double> / 180),
+                 inside = std::sqrt(1 - s * s / ior / ior);
+    const Vec3d in = {out.x / glass, out.y / glass, -std::sqrt(1 - s * s / glass / glass)};
+    for (const Vec3d& wo : {out, in})
+      CHECK(deltas(dim, wo, false) ==
+            doctest::Approx(deltas(clear, wo, false) * std::exp(-depth / inside)));
+  }
+}
