@@ -23,9 +23,10 @@ constexpr double kOfEdges = 2 * std::numbers::sqrt2;
 
 /// v(2n) over v(n) - v(2n), of which the like was r times as much one block before. Where r is
 /// below that of edges the variance is a sum of theirs and of one that falls as chance does, 1 / n:
-/// with time the latter stays, so that r was more than it is.
+/// with time the latter stays, so that r was more than it is. Below 2, where r is by chance alone,
+/// that goes on as it is above, lest means be too high.
 double left_of_difference(double r) {
-  if (r <= 2 || r >= kOfEdges) return 1 / (r - 1);
+  if (r >= kOfEdges) return 1 / (r - 1);
   const double edges = (r - 2) / ((kOfEdges - 1) * (kOfEdges - r));  // over the other
   return (1 + edges) / (1 + (kOfEdges - 1) * edges);
 }
