@@ -5,23 +5,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <fstream>
 #include <functional>
-#include <iterator>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "api/library.h"
 #include "bench/document.h"
 #include "bench/measure.h"
 #include "bench/native_marble.h"
-#include "lang/link.h"
-#include "lang/parser.h"
+#include "bench/setting.h"
 #include "materials/colour.h"
 #include "renderer/render.h"
 #include "renderer/scene.h"
@@ -31,74 +26,11 @@ namespace {
 
 using renderer::Generator;
 using renderer::Rendered;
-using renderer::RenderOptions;
 
-[[noreturn]] void give_up(const std::string& why) {
-  fmt::print(stderr, "error: {}\n", why);
-  std::exit(1);
-}
-
-vm::Program compile(const std::string& text) {
-  lang::Diagnostics diagnostics;
-  const lang::Graph graph = lang::parse(lang::make_source("transport", text), diagnostics);
-  auto linked = lang::link({&graph, 1}, api::standard_library(), {}, diagnostics);
-  if (!linked) give_up(lang::render(diagnostics));
-  return std::move(linked->program);
-}
-
-std::string example(const char* name) {
-  std::ifstream in(fmt::format(MMS_SOURCE_DIR "/examples/{}", name));
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (text.empty()) give_up(fmt::format("no example {}", name));
-  return text;
-}
-
-/// A script in a scene, ready to be rendered.
-class Setting {
- public:
-  /// `scene`: a built-in one, or the text of one. `surface`: of the object under test.
-  Setting(const std::string& script, const std::string& scene, const std::string& surface = "")
-      : program_(compile(script)) {
-    if (scene.find('{') == scene.npos) {
-      auto loaded = renderer::load_scene(program_, {scene, surface, "", 0});
-      if (!loaded) give_up(loaded.error().what);
-      scene_ = *loaded;
-      return;
-    }
-    auto data = renderer::parse_scene(program_, {"", surface, "", 0}, scene, "transport", "");
-    if (!data) give_up(data.error().where + ": " + data.error().what);
-    scene_.emplace(std::make_shared<const renderer::SceneData>(std::move(*data)));
-  }
-
-  Rendered render(int side, int samples, int threads, std::uint64_t seed = 0,
-                  Generator generator = Generator::Niederreiter) const {
-    RenderOptions o;
-    o.samples = samples;
-    o.threads = threads;
-    o.seed = seed;
-    o.generator = generator;
-    return render(side, o);
-  }
-
-  Rendered render(int side, RenderOptions o) const {
-    o.width = o.height = side;
-    o.filter = renderer::FilterShape::Box;
-    auto r = renderer::render(program_, *scene_, o);
-    if (!r) give_up(r.error().where + ": " + r.error().what);
-    return std::move(*r);
-  }
-
- private:
-  vm::Program program_;
-  std::optional<renderer::Scene> scene_;
-};
-
-/// Seconds of processor that `run` takes, whatever else the machine does; and what it returns.
-template <class F>
-auto charged(F run) {
-  const std::clock_t begin = std::clock();
-  auto result = run();
-  return std::pair(double(std::clock() - begin) / CLOCKS_PER_SEC, std::move(result));
+double mean_luminance(const renderer::Film& film) {
+  double sum = 0;
+  for (const auto& xyz : film.xyz) sum += xyz[1];
+  return sum / double(film.xyz.size());
 }
 
 /// Others that held the machine while a figure of two threads was taken.
@@ -107,27 +39,6 @@ std::string load() {
   std::string first;
   in >> first;
   return first;
-}
-
-double mean_luminance(const renderer::Film& film) {
-  double sum = 0;
-  for (const auto& xyz : film.xyz) sum += xyz[1];
-  return sum / double(film.xyz.size());
-}
-
-/// Mean square over pixels of what two pictures' luminance differs by.
-double mean_square(const renderer::Film& a, const renderer::Film& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.xyz.size(); ++i) {
-    const double d = a.xyz[i][1] - b.xyz[i][1];
-    sum += d * d;
-  }
-  return sum / double(a.xyz.size());
-}
-
-std::string quartiles(const Series& s, const char* format) {
-  const auto f = [&](double q) { return fmt::format(fmt::runtime(format), quantile(s, q)); };
-  return fmt::format("{} [{}, {}]", f(0.5), f(0.25), f(0.75));
 }
 
 // Scripts against C++
@@ -281,19 +192,6 @@ std::string semi_transparency() {
 
 // Samples a second and time to an error
 
-struct Material {
-  const char* name;
-  std::string script;
-};
-
-std::vector<Material> materials() {
-  return {{"matte", "surface s\n bsdf = matte(0.5);\nend\n"},
-          {"glossy metal", "surface s\n bsdf = conductor(0.2, 3.4, 0.4);\nend\n"},
-          {"glass", "surface s\n bsdf = dielectric(1.5);\nend\n"},
-          {"marble", example("marble.mms")},
-          {"murky glass", example("murky_glass.mms")}};
-}
-
 /// Samples a pixel until the root mean square error is `target`, if it falls like 1 / sqrt(n).
 double samples_to(const Rendered& r, double target) {
   return r.report.samples * std::pow(r.report.rmse / target, 2);
@@ -336,66 +234,6 @@ std::string speed() {
   return text;
 }
 
-std::string peers() {
-  struct Peer {
-    const char* rgb;
-    const char* spectral;
-  };
-  constexpr Peer kPeers[] = {
-      {"1.1 us, 0.4 s", "3.5 us, 18 s"}, {"2.5 s", "60 s"}, {"22 s", "193 s"}};
-  constexpr int kSeeds = 2, kSide = 256, kDepth = 8, kReference = 256;
-  constexpr double kError = 0.01;
-  std::string text = fmt::format(
-      "## The peers, for orientation\n\n"
-      "One thread, at most {} scattering events, {}x{} pixels: the processor's microseconds a "
-      "sample, and samples a pixel and the\nprocessor's seconds to a root mean square error of "
-      "luminance of {} (1 is white). Measured: from a picture of {} samples\nof another seed, the "
-      "variance that it states for itself taken off, the fewest even samples from half of the "
-      "stated on, each up to 16, then\nevery second. Stated: a render that ends when it states "
-      "that error, as `--error {}` ends it, with more samples where\nthey do more: their mean. The "
-      "mean of {} seeds. The peers were measured earlier on the same kind of "
-      "machine, on spheres of similar\nmaterials in similar "
-      "light, not on this very scene.\n\n"
-      "| material | a sample | measured | stated | fastest RGB production renderer | leading "
-      "spectral research renderer |\n|---|---|---|---|---|---|\n",
-      kDepth, kSide, kSide, kError, kReference, kError, kSeeds);
-  const std::vector<Material> all = materials();
-  for (std::size_t i = 0; i < std::size(kPeers); ++i) {
-    const Setting s(all[i].script, "sphere");
-    RenderOptions o;
-    o.max_depth = kDepth;
-    o.samples = kReference;
-    o.threads = 2;
-    o.seed = 99;
-    const Rendered reference = s.render(kSide, o);
-    o.threads = 1;
-    const double own = reference.report.rmse * reference.report.rmse;
-    double paths = 0, seconds = 0, samples = 0, met_seconds = 0, met_samples = 0;
-    for (int seed = 0; seed < kSeeds; ++seed) {
-      o.seed = std::uint64_t(seed);
-      o.samples = renderer::kMostSamples;
-      o.error = kError;
-      const auto [charge, r] = charged([&] { return s.render(kSide, o); });
-      o.error = 0;
-      seconds += charge / kSeeds;
-      samples += r.report.mean_samples / kSeeds;
-      paths += double(r.report.paths) / kSeeds;
-      for (int n = std::max(1, int(r.report.mean_samples / 2));; n += n < 16 ? 1 : 2) {
-        o.samples = n;
-        const auto [took, picture] = charged([&] { return s.render(kSide, o); });
-        if (mean_square(picture.film, reference.film) - own > kError * kError) continue;
-        met_seconds += took / kSeeds;
-        met_samples += double(n) / kSeeds;
-        break;
-      }
-    }
-    text += fmt::format("| {} | {:.2f} us | {:.1f}, {:.2f} s | {:.1f}, {:.1f} s | {} | {} |\n",
-                        all[i].name, seconds / paths * 1e6, met_samples, met_seconds, samples,
-                        seconds, kPeers[i].rgb, kPeers[i].spectral);
-  }
-  return text;
-}
-
 /// From the text of a script to a picture of one sample a pixel.
 Series first_pictures(int side) {
   Series all;
@@ -422,9 +260,11 @@ int run(int argc, char** argv) {
     std::string name;
     std::function<std::string()> make;
   };
-  const Part parts[] = {
-      {"overhead", overhead}, {"sampling", sampling}, {"semi-transparency", semi_transparency},
-      {"speed", speed},       {"peers", peers},       {"first", first}};
+  const Part parts[] = {{"overhead", overhead},
+                        {"sampling", sampling},
+                        {"semi-transparency", semi_transparency},
+                        {"speed", speed},
+                        {"first", first}};
   bool good = true;
   for (const Part& p : parts) {
     if (argc > 1 && std::find(argv + 1, argv + argc, p.name) == argv + argc) continue;
