@@ -30,9 +30,9 @@ struct Cluster {
 enum class Matter : std::uint8_t { Coloured, Grey };
 
 /// The cluster drawn by `u` in [0, 1), of so many wavelengths that differ: a power of two. Where
-/// they are fewer than lanes the lanes repeat them. Of grey matter `x`, `y` and `z` of all eight are
-/// moved, as little as that takes, to where every `light` has its exact colour: no wavelength that
-/// is drawn is seen.
+/// they are fewer than lanes the lanes repeat them. Of grey matter `x`, `y` and `z` of all eight
+/// are moved, as little as that takes, to where every `light` has its exact colour: no wavelength
+/// that is drawn is seen.
 Cluster sample_cluster(double u, int wavelengths = kWavelengths, Matter matter = Matter::Coloured);
 
 /// Puts the digits of a number in [0, 1) into another order: the number that draws a cluster says
