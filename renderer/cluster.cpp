@@ -129,9 +129,11 @@ std::vector<Rows> make_rows() {
     }
   // What a lamp is on average over all clusters; of daylight, exactly what it is by definition.
   std::array<std::array<double, 3>, 3> exact{};
-  for (std::size_t c = 0; c < 3; ++c)
-    for (int i = 0; i < kStep; ++i)
-      for (int k = 0; k < 3; ++k) exact[c][k] += dot(column(rows[i], kXyz + c), lamps(rows[i])[k]);
+  for (int i = 0; i < kStep; ++i) {
+    const std::array<Values, 3> all = lamps(rows[i]);
+    for (std::size_t c = 0; c < 3; ++c)
+      for (int k = 0; k < 3; ++k) exact[c][k] += dot(column(rows[i], kXyz + c), all[k]);
+  }
   const double norm = kWavelengths / exact[1][0];
   for (std::size_t c = 0; c < 3; ++c) {
     for (double& e : exact[c]) e *= norm;

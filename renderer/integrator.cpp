@@ -190,6 +190,7 @@ bool Integrator::runs(int kind) const {
 
 /// Of what is ordered, leaves for later what fills no batch, if something else goes on meanwhile.
 void Integrator::hold_back(bool more) {
+  if (!world_.compiled.executable()) return;
   const std::size_t width = std::size_t(scripts_.width());
   const auto held = [&](std::span<const Arrived> of_a_kind) {
     return runs(of_a_kind[0].kind) ? of_a_kind.size() % width : 0;
