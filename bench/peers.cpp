@@ -92,7 +92,7 @@ class Cycles {
     char line[4096];
     while (std::fgets(line, sizeof line, said_))
       if (std::string(line).starts_with(begin)) return std::string(line).substr(begin.size());
-    give_up("blender ended: is it installed, with python3-numpy? (apt-get install blender)");
+    give_up("blender ended: is it installed? (apt-get install blender)");
   }
 
   std::string folder_;
