@@ -31,149 +31,53 @@ struct Value {
   Value(const Spectrum<double>& x) : s(x) {}
 };
 
-inline void append(Material& m, const Material& child) {
-  const auto shift = static_cast<std::uint32_t>(m.tree.nodes.size());
-  for (vm::LayoutNode node : child.tree.nodes) {
-    for (auto& c : node.children) c += shift;
-    m.tree.nodes.push_back(node);
-  }
-  m.numbers.insert(m.numbers.end(), child.numbers.begin(), child.numbers.end());
-}
+/// Puts the nodes and numbers of another material behind those of `m`.
+void append(Material& m, const Material& child);
 
 /// `spectra` then `reals` must be the formal order of the lobe but for Dielectric, see below.
-inline Material node(Lobe lobe, std::vector<Material> children, std::vector<Value> spectra,
-                     std::vector<double> reals = {}) {
-  Material m;
-  vm::LayoutNode n;
-  n.lobe = static_cast<int>(lobe);
-  for (const Material& child : children) {
-    append(m, child);
-    n.children.push_back(static_cast<std::uint32_t>(m.tree.nodes.size() - 1));
-  }
-  n.params.resize(spectra.size() + reals.size());
-  for (const Value& v : spectra) m.numbers.insert(m.numbers.end(), v.s.v.begin(), v.s.v.end());
-  m.numbers.insert(m.numbers.end(), reals.begin(), reals.end());
-  m.tree.nodes.push_back(n);
-  return m;
-}
+Material node(Lobe lobe, std::vector<Material> children, std::vector<Value> spectra,
+              std::vector<double> reals = {});
 
-inline Material matte(Value c) { return node(Lobe::Matte, {}, {c}); }
-inline Material translucent(Value c) { return node(Lobe::Translucent, {}, {c}); }
-inline Material glossy(Value c, double gloss) { return node(Lobe::Glossy, {}, {c}, {gloss}); }
+Material matte(Value c);
+Material translucent(Value c);
+Material glossy(Value c, double gloss);
 /// A model of a colour and real numbers.
-inline Material tinted(Lobe lobe, Value c, std::vector<double> reals) {
-  return node(lobe, {}, {c}, std::move(reals));
-}
-inline Material film_conductor(Value n, Value k, Value film, double thickness, Value wavelength,
-                               double roughness) {
-  Material m = node(Lobe::FilmConductor, {}, {n, k, film}, {thickness});
-  m.tree.nodes.back().params.resize(7);
-  m.numbers.insert(m.numbers.end(), wavelength.s.v.begin(), wavelength.s.v.end());
-  m.numbers.insert(m.numbers.end(), {roughness, 0.0});
-  return m;
-}
-inline Material film_dielectric(Value ior, Value film, double thickness, Value wavelength) {
-  Material m = node(Lobe::FilmDielectric, {}, {ior, film}, {thickness});
-  m.tree.nodes.back().params.resize(4);
-  m.numbers.insert(m.numbers.end(), wavelength.s.v.begin(), wavelength.s.v.end());
-  return m;
-}
-inline Material coat(Material top, Material base, double thickness, Value absorption, Value ior) {
-  Material m = node(Lobe::Coat, {top, base}, {}, {thickness});
-  m.tree.nodes.back().params.resize(3);
-  m.numbers.insert(m.numbers.end(), absorption.s.v.begin(), absorption.s.v.end());
-  m.numbers.insert(m.numbers.end(), ior.s.v.begin(), ior.s.v.end());
-  return m;
-}
-inline Material microfacet(Value c, double roughness, double anisotropy = 0) {
-  return node(Lobe::Microfacet, {}, {c}, {roughness, anisotropy});
-}
-inline Material beckmann(Value c, double roughness, double anisotropy = 0) {
-  return node(Lobe::Beckmann, {}, {c}, {roughness, anisotropy});
-}
-inline Material conductor(Value n, Value k, double roughness = 0, double anisotropy = 0) {
-  return node(Lobe::Conductor, {}, {n, k}, {roughness, anisotropy});
-}
-inline Material coloured_metal(Value facing, Value edge, double roughness) {
-  return node(Lobe::ColouredMetal, {}, {facing, edge}, {roughness, 0});
-}
-inline Material mirror(Value c) { return node(Lobe::Mirror, {}, {c}); }
-inline Material refraction(Value ior, Value c = 1) { return node(Lobe::Refraction, {}, {ior, c}); }
+Material tinted(Lobe lobe, Value c, std::vector<double> reals);
+Material film_conductor(Value n, Value k, Value film, double thickness, Value wavelength,
+                        double roughness);
+Material film_dielectric(Value ior, Value film, double thickness, Value wavelength);
+Material coat(Material top, Material base, double thickness, Value absorption, Value ior);
+Material microfacet(Value c, double roughness, double anisotropy = 0);
+Material beckmann(Value c, double roughness, double anisotropy = 0);
+Material conductor(Value n, Value k, double roughness = 0, double anisotropy = 0);
+Material coloured_metal(Value facing, Value edge, double roughness);
+Material mirror(Value c);
+Material refraction(Value ior, Value c = 1);
 /// An interface: index, a number, two tints.
-inline Material interface(Lobe lobe, Value ior, double number, Value r, Value t) {
-  Material m = node(lobe, {}, {ior}, {number});
-  m.tree.nodes.back().params.resize(4);
-  m.numbers.insert(m.numbers.end(), r.s.v.begin(), r.s.v.end());
-  m.numbers.insert(m.numbers.end(), t.s.v.begin(), t.s.v.end());
-  return m;
-}
-inline Material dielectric(Value ior, double roughness = 0, Value r = 1, Value t = 1,
-                           double anisotropy = 0, Lobe lobe = Lobe::Dielectric) {
-  Material m = interface(lobe, ior, roughness, r, t);
-  m.tree.nodes.back().params.resize(5);
-  m.numbers.push_back(anisotropy);
-  return m;
-}
-inline Material beckmann_dielectric(Value ior, double roughness = 0, Value r = 1, Value t = 1,
-                                    double anisotropy = 0) {
-  return dielectric(ior, roughness, r, t, anisotropy, Lobe::BeckmannDielectric);
-}
-inline Material phong_glass(Value ior, double n, Value r = 1, Value t = 1) {
-  return interface(Lobe::PhongGlass, ior, n, r, t);
-}
-inline Material slab(Value ior, double thickness = 0, Value absorption = 0) {
-  Material m = node(Lobe::Slab, {}, {ior}, {thickness});
-  m.tree.nodes.back().params.resize(3);
-  m.numbers.insert(m.numbers.end(), absorption.s.v.begin(), absorption.s.v.end());
-  return m;
-}
-inline Material isotropic() { return node(Lobe::Isotropic, {}, {}); }
-inline Material rayleigh_phase() { return node(Lobe::RayleighPhase, {}, {}); }
-inline Material draine(double g, double a) { return node(Lobe::Draine, {}, {}, {g, a}); }
-inline Material henyey_greenstein(double g) { return node(Lobe::HenyeyGreenstein, {}, {}, {g}); }
-inline Material mix(Material a, Material b, Value t) { return node(Lobe::Mix, {a, b}, {t}); }
-inline Material fresnel_mix(Material base, Material coat, Value ior) {
-  return node(Lobe::FresnelMix, {base, coat}, {ior});
-}
-inline Material scale(Material a, Value t) { return node(Lobe::Scale, {a}, {t}); }
-inline Material layer(Material top, Material base, double weight = 1) {
-  return node(Lobe::Layer, {top, base}, {}, {weight});
-}
-inline Material add(Material a, Material b) { return node(Lobe::Add, {a, b}, {}); }
+Material interface(Lobe lobe, Value ior, double number, Value r, Value t);
+Material dielectric(Value ior, double roughness = 0, Value r = 1, Value t = 1,
+                    double anisotropy = 0, Lobe lobe = Lobe::Dielectric);
+Material beckmann_dielectric(Value ior, double roughness = 0, Value r = 1, Value t = 1,
+                             double anisotropy = 0);
+Material phong_glass(Value ior, double n, Value r = 1, Value t = 1);
+Material slab(Value ior, double thickness = 0, Value absorption = 0);
+Material isotropic();
+Material rayleigh_phase();
+Material draine(double g, double a);
+Material henyey_greenstein(double g);
+Material mix(Material a, Material b, Value t);
+Material fresnel_mix(Material base, Material coat, Value ior);
+Material scale(Material a, Value t);
+Material layer(Material top, Material base, double weight = 1);
+Material add(Material a, Material b);
 
 /// Direction `degrees` from +z (above 90: inside), at azimuth `phi` in radians.
-inline Vec3d direction(double degrees, double phi) {
-  const double a = degrees * kPi<double> / 180;
-  return {std::sin(a) * std::cos(phi), std::sin(a) * std::sin(phi), std::cos(a)};
-}
-
-/// The same material, whose wavelength `k` is what `from(k)` was.
-template <class From>
-Material with_wavelengths(const Material& m, From from) {
-  Material r = m;
-  std::size_t at = 0;
-  for (const vm::LayoutNode& n : m.tree.nodes) {
-    const auto& f = materials::formals(static_cast<Lobe>(n.lobe));
-    for (int i = 0; i < f.count; ++i) {
-      if (f.kinds[i] == 's') {
-        for (int k = 0; k < kWavelengths; ++k) r.numbers[at + k] = m.numbers[at + from(k)];
-        at += kWavelengths;
-      } else if (f.kinds[i] == 'r') {
-        ++at;
-      }
-    }
-  }
-  return r;
-}
+Vec3d direction(double degrees, double phi);
 
 /// Wavelengths rotated so that wavelength `j` is the hero.
-inline Material with_hero(const Material& m, int j) {
-  return with_wavelengths(m, [j](int k) { return (k + j) % kWavelengths; });
-}
+Material with_hero(const Material& m, int j);
 
 /// Every wavelength as the hero: what the hero alone decides, without working out the others.
-inline Material hero_only(const Material& m) {
-  return with_wavelengths(m, [](int) { return 0; });
-}
+Material hero_only(const Material& m);
 
 }  // namespace mms::test

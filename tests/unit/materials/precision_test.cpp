@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "materials/bsdf_definitions.h"
 #include "tests/sanitized.h"
 #include "tests/stats/random.h"
 #include "tests/unit/materials/cases.h"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/quadrature.h"
+#include "materials/sheen.h"
 #include "materials/tables/fibres.h"
 #include "tests/sanitized.h"
 #include "tests/stats/distributions.h"

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// What the functions of a Bsdf do. materials/bsdf.cpp compiles them for float and double; who
+/// wants another type of numbers includes this.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "materials/baselines.h"
+#include "materials/bsdf.h"
+#include "materials/combine.h"
+#include "materials/conductor.h"
+#include "materials/dielectric.h"
+#include "materials/film.h"
+#include "materials/glossy.h"
+#include "materials/matte.h"
+#include "materials/microfacet.h"
+#include "materials/oren_nayar.h"
+#include "materials/phong_glass.h"
+#include "materials/radial.h"
+#include "materials/sheen.h"
+#include "materials/slab.h"
+#include "materials/specular.h"
+
+namespace mms::materials {
+
+static_assert(kMaxGloss == axes::kLargestGloss, "a coat's table ends where gloss does");
+
+namespace detail {
+
+/// True of models that can be a delta, and of those that can be something else.
+template <class M>
+concept CanBeSpecular = requires(const M& m) {
+  m.terms({});
+};
+template <class M>
+concept CanBeSmooth = requires(const M& m) {
+  m.evaluate({}, {}, Mode{});
+};
+
+/// How much of a coat's factor for Lambert lobes (materials/combine.h) the model gets, the rest
+/// being the factor for others: all for a Lambert lobe. One that is nearly that gains by the first
+/// factor where it loses by the other; a mean of the two, like both of them, is symmetric.
+template <class R, class M>
+inline R lambert_share(const M& model) {
+  if constexpr (std::is_same_v<M, Matte<R>> || std::is_same_v<M, Translucent<R>>)
+    return 1;
+  else if constexpr (requires { model.lambert_share(); })
+    return model.lambert_share();
+  else
+    return 0;
+}
+
+/// Whether the model is an interface of which it is known what a polished coat of these indices
+/// sends back.
+template <class R, class M>
+inline bool knows_coat(const M& model, const R* ior) {
+  if constexpr (std::is_same_v<M, Refraction<R>> || std::is_same_v<M, FilmDielectric<R>>)
+    return true;
+  else if constexpr (requires { model.knows_coat(ior); })
+    return model.knows_coat(ior);
+  else
+    return false;
+}
+
+template <class M>
+inline bool is_specular(const M& model) {
+  if constexpr (!CanBeSmooth<M>)
+    return true;
+  else if constexpr (!CanBeSpecular<M>)
+    return false;
+  else
+    return model.specular();
+}
+
+}  // namespace detail
+
+template <class R>
+template <class Result, class Visit>
+Result Bsdf<R>::with_model(int i, Result none, Visit visit) const {
+  const Layout::Node& node = layout_->nodes()[i];
+  const R* p = params_ + node.first_param;
+  switch (node.lobe) {
+    case Lobe::Matte:
+      return visit(Matte<R>(p));
+    case Lobe::Translucent:
+      return visit(Translucent<R>(p));
+    case Lobe::Glossy:
+      return visit(Glossy<R>(p));
+    case Lobe::GlossyProduct:
+      return visit(GlossyProduct<R>(p));
+    case Lobe::GlossyBack:
+      return visit(GlossyBack<R>(p));
+    case Lobe::GlossyThrough:
+      return visit(GlossyThrough<R>(p));
+    case Lobe::OrenNayar:
+      return visit(OrenNayar<R>(p));
+    case Lobe::RoughMatte:
+      return visit(RoughMatte<R>(p));
+    case Lobe::Phong:
+      return visit(Phong<R>(p));
+    case Lobe::MaxPhong:
+      return visit(MaxPhong<R>(p));
+    case Lobe::Spot:
+      return visit(Spot<R>(p));
+    case Lobe::Ward:
+      return visit(Ward<R>(p));
+    case Lobe::AshikhminShirley:
+      return visit(AshikhminShirley<R>(p));
+    case Lobe::Sheen:
+      return visit(Sheen<R>(p));
+    case Lobe::Microfacet:
+      return visit(Microfacet<R>(p));
+    case Lobe::Beckmann:
+      return visit(BeckmannMirror<R>(p));
+    case Lobe::Conductor:
+      return visit(Conductor<R>(p));
+    case Lobe::ColouredMetal:
+      return visit(ColouredMetal<R>(p));
+    case Lobe::Dielectric:
+      return visit(Dielectric<R>(p));
+    case Lobe::BeckmannDielectric:
+      return visit(BeckmannDielectric<R>(p));
+    case Lobe::PhongGlass:
+      return visit(PhongGlass<R>(p));
+    case Lobe::Slab:
+      return visit(Slab<R>(p));
+    case Lobe::FilmConductor:
+      return visit(FilmConductor<R>(p));
+    case Lobe::FilmDielectric:
+      return visit(FilmDielectric<R>(p));
+    case Lobe::Mirror:
+      return visit(Mirror<R>(p));
+    case Lobe::Refraction:
+      return visit(Refraction<R>(p));
+    case Lobe::Isotropic:
+    case Lobe::HenyeyGreenstein:
+    case Lobe::RayleighPhase:
+    case Lobe::Draine:
+    case Lobe::Mix:
+    case Lobe::FresnelMix:
+    case Lobe::Coat:
+    case Lobe::Scale:
+    case Lobe::Add:
+    case Lobe::Layer:
+      break;
+  }
+  return none;
+}
+
+template <class R>
+bool Bsdf<R>::node_is_specular(int i) const {
+  return with_model(i, false, [](const auto& model) { return detail::is_specular(model); });
+}
+
+template <class R>
+bool Bsdf<R>::specular_only() const {
+  for (int i = 0; i < node_count(); ++i)
+    if (with_model(i, false, [](const auto& model) { return !detail::is_specular(model); }))
+      return false;
+  return true;
+}
+
+template <class R>
+void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
+  choice.any = false;
+  if (node_count() == 0 || in_surface(wo)) return;
+  auto& probability = choice.probability.of;
+  const auto estimate = [&](int i) {
+    return with_model(i, Spectrum<R>(), [&](const auto& m) { return m.estimate(wo); });
+  };
+  // Below this the inverse would overflow: black.
+  constexpr R least = std::numeric_limits<R>::min() / std::numeric_limits<R>::epsilon();
+  if (node_count() == 1) {
+    probability[0] = Spectrum<R>::map([](R x) { return R(x > least); }, estimate(0));
+    choice.any = probability[0][0] > 0;
+    return;
+  }
+  Spectrum<R> sum;
+  find_coats(*layout_, params_, wo, choice.coats, choice.lower);
+  if (layout_->transmits()) find_coated_glass(wo, choice.coats);
+  weigh_for_choice(*layout_, params_, wo, &choice.coats, choice.probability);
+  for (int i = 0; i < node_count(); ++i) {
+    probability[i] *= estimate(i);
+    sum += probability[i];
+  }
+  for (int j = 0; j < kWavelengths; ++j) sum[j] = sum[j] > least ? 1 / sum[j] : R(0);
+  for (int i = 0; i < node_count(); ++i) probability[i] *= sum;
+  choice.any = sum[0] > 0;
+  for (int i = 0; i < node_count(); ++i) {
+    const CoatAbove<R>& coat = choice.coats.of[i];
+    if (!coat.kind.round && coat.lower < 0) continue;
+    with_model(i, 0, [&](const auto& model) {
+      if constexpr (requires { model.coated(wo); }) {
+        const CoatedLobe<R> lobe = model.coated(wo);
+        if (!solved_under(coat, lobe) || detail::is_specular(model)) return 0;
+        const LowerCoat<R>* lower = coat.lower >= 0 ? &choice.lower[coat.lower] : nullptr;
+        choice.under.solve(i, lobe, lower ? lower->coats() : coats_above(*layout_, params_, coat),
+                           lower);
+      }
+      return 0;
+    });
+  }
+}
+
+template <class R>
+void Bsdf<R>::find_coated_glass(Vec3<R> wo, PerNode<CoatAbove<R>>& coats) const {
+  const auto sent = [&](int lobe, const R* ior) {
+    return with_model(lobe, std::optional<SentBack<R>>(), [&](const auto& model) {
+      std::optional<SentBack<R>> back;
+      if (!detail::knows_coat<R>(model, ior)) return back;
+      if constexpr (requires { model.sent_back(wo, ior); })
+        back = model.sent_back(wo, ior);
+      else if constexpr (detail::CanBeSpecular<std::decay_t<decltype(model)>>)
+        back = SentBack<R>::smooth(model.terms(wo), wo, ior);
+      return back;
+    });
+  };
+  for (int i = 0; i < node_count(); ++i)
+    if (coats.of[i].base == i && coats.of[i].kind.polished)
+      find_glass(*layout_, params_, wo, i, coats, sent);
+}
+
+template <class R>
+Lobes<R> Bsdf<R>::evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const {
+  if (node_count() == 0 || in_surface(wo) || in_surface(wi)) return {};
+  if (node_count() > 1) return sum_of_lobes(wo, wi, mode, choice);
+  return with_model(0, Lobes<R>(), [&](const auto& model) {
+    Lobes<R> l;
+    if constexpr (detail::CanBeSmooth<std::decay_t<decltype(model)>>) {
+      if (!detail::is_specular(model)) l = model.evaluate(wo, wi, mode);
+      l.pdf *= choice.probability.of[0];
+    }
+    return l;
+  });
+}
+
+template <class R>
+Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const {
+  Lobes<R> total;
+  PerNode<NodeWeight<R>> weights;
+  weigh(*layout_, params_, choice.coats, choice.lower, wo, wi, mode, weights);
+  for (int i = 0; i < node_count(); ++i) {
+    with_model(i, 0, [&](const auto& model) {
+      using Model = std::decay_t<decltype(model)>;
+      if constexpr (detail::CanBeSmooth<Model>) {
+        if (detail::is_specular(model)) return 0;
+        const R share = detail::lambert_share<R>(model);
+        const Lobes<R> l = model.evaluate(wo, wi, mode);
+        total.pdf += l.pdf * choice.probability.of[i];
+        if constexpr (requires { model.coated(wo); }) {
+          const CoatAbove<R>& coat = choice.coats.of[i];
+          if (coat.ior && (share == 0 || coat.solvable())) {
+            total.f += l.f * coated_weight(weights.of[i], coat, choice.lower, choice.under[i],
+                                           model.coated(wo), model.coated(wi), wo.z, wi.z);
+            return 0;
+          }
+        }
+        if (choice.coats.of[i].passed_once) {
+          total.f += l.f * weights.of[i].glass;
+          return 0;
+        }
+        if (share > 0) total.f += l.f * weights.of[i].lambert * share;
+        if (share < 1) total.f += l.f * weights.of[i].other * (1 - share);
+      }
+      return 0;
+    });
+  }
+  return total;
+}
+
+template <class R>
+std::optional<BsdfSample<R>> Bsdf<R>::sample(Vec3<R> wo, R u_lobe, R u1, R u2, Mode mode,
+                                             const Choice& choice) const {
+  if (in_surface(wo) || !choice.any) return {};
+  // Choose a lobe by the hero's probabilities, and stretch what is left of the number.
+  int chosen = -1;
+  R u = 0;
+  for (int i = 0; i < node_count(); ++i) {
+    const R p = choice.probability.of[i][0];
+    if (!(p > 0)) continue;
+    chosen = i;
+    u = u_lobe / p;
+    if (u_lobe < p) break;
+    u_lobe -= p;
+  }
+  if (chosen < 0) return {};
+  u = std::min(u, 1 - std::numeric_limits<R>::epsilon() / 2);
+  return node_is_specular(chosen) ? sample_specular(chosen, wo, u, mode, choice)
+                                  : sample_smooth(chosen, wo, u, u1, u2, mode, choice);
+}
+
+template <class R>
+std::optional<BsdfSample<R>> Bsdf<R>::sample_smooth(int lobe, Vec3<R> wo, R u, R u1, R u2,
+                                                    Mode mode, const Choice& choice) const {
+  BsdfSample<R> s;
+  const bool drawn = with_model(lobe, false, [&](const auto& model) {
+    if constexpr (detail::CanBeSmooth<std::decay_t<decltype(model)>>)
+      return model.sample(wo, u, u1, u2, s.wi);
+    else
+      return false;
+  });
+  if (!drawn) return {};
+  if (in_surface(s.wi)) return {};
+  const Lobes<R> l = evaluate(wo, s.wi, mode, choice);
+  s.f = l.f;
+  s.pdf = l.pdf;
+  s.transmitted = !same_side(wo, s.wi);
+  if (!(s.pdf[0] > 0) || !std::isfinite(s.pdf[0])) return {};
+  return s;
+}
+
+template <class R>
+std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u, Mode mode,
+                                                      const Choice& choice) const {
+  const auto terms_of = [&](int i) {
+    return with_model(i, SpecularTerms<R>{}, [&](const auto& model) {
+      if constexpr (detail::CanBeSpecular<std::decay_t<decltype(model)>>)
+        if (detail::is_specular(model)) return model.terms(wo);
+      return SpecularTerms<R>{};
+    });
+  };
+  // Choose between reflection and refraction by the hero's probabilities.
+  const SpecularTerms<R> mine = terms_of(lobe);
+  const bool reflect = u < mine.reflect_probability[0];
+  if (!reflect && !(mine.transmit_probability[0] > 0)) return {};
+  BsdfSample<R> s;
+  s.specular = true;
+  s.transmitted = !reflect;
+  const R eta = mine.eta[0];
+  s.wi = reflect ? mirrored(wo) : refracted(wo, eta);
+  const R cos_i = std::abs(s.wi.z);
+  if (in_surface(s.wi)) return {};
+  // Sum the deltas of all lobes that fall on this very direction.
+  PerNode<NodeWeight<R>> weights;
+  if (node_count() == 1)
+    weights.of[0] = {};
+  else
+    weigh(*layout_, params_, choice.coats, choice.lower, wo, s.wi, mode, weights);
+  for (int i = 0; i < node_count(); ++i) {
+    const SpecularTerms<R> t = i == lobe ? mine : terms_of(i);
+    const bool glass = node_count() > 1 && choice.coats.of[i].passed_once;
+    const Spectrum<R>& weight = glass ? weights.of[i].glass : weights.of[i].other;
+    for (int j = 0; j < kWavelengths; ++j) {
+      if (!reflect && t.eta[j] != eta) continue;
+      const R scale = reflect || mode == Mode::Importance ? R(1) : 1 / (eta * eta);
+      s.f[j] += weight[j] * (reflect ? t.reflect_weight : t.transmit_weight)[j] * scale / cos_i;
+      s.pdf[j] += choice.probability.of[i][j] *
+                  (reflect ? t.reflect_probability : t.transmit_probability)[j];
+    }
+  }
+  if (!(s.pdf[0] > 0)) return {};
+  return s;
+}
+
+}  // namespace mms::materials

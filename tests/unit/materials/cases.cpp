@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/unit/materials/cases.h"
+
+#include <utility>
+
+namespace mms::test {
+
+Spectrum<double> ramp(double first, double last) {
+  Spectrum<double> s;
+  for (int j = 0; j < kWavelengths; ++j) s[j] = first + (last - first) * j / (kWavelengths - 1);
+  return s;
+}
+
+std::vector<Case> smooth_cases() {
+  std::vector<Case> c;
+  const auto put = [&](const char* name, Material m, double lossless = 0) {
+    c.push_back({name, std::move(m), lossless});
+  };
+  put("matte", matte(1), 1);
+  put("translucent", translucent(ramp(0.2, 0.9)));
+  for (double gloss : {0.0, 0.5, 4.0, 40.0, 1000.0}) put("glossy", glossy(1, gloss), 1);
+  put("glossy_product", tinted(Lobe::GlossyProduct, ramp(0.3, 0.8), {20, 60}), 0);
+  put("glossy_product, latitude alone", tinted(Lobe::GlossyProduct, 1, {30, 0}), 1);
+  put("glossy_product, longitude alone", tinted(Lobe::GlossyProduct, 1, {0, 30}), 1);
+  put("glossy_back", tinted(Lobe::GlossyBack, 1, {200, 200}), 1);
+  put("glossy_through", tinted(Lobe::GlossyThrough, 1, {15, 100}));
+  for (double sigma : {0.1, 0.8}) put("oren_nayar", tinted(Lobe::OrenNayar, 0.7, {sigma}));
+  for (double r : {0.2, 1.0}) put("rough_matte", tinted(Lobe::RoughMatte, 1, {r}), 1);
+  put("rough_matte, coloured", tinted(Lobe::RoughMatte, ramp(0.2, 0.9), {0.6}));
+  for (double n : {0.0, 2.5, 200.0}) {
+    put("phong", tinted(Lobe::Phong, 1, {n}));
+    put("max_phong", tinted(Lobe::MaxPhong, ramp(0.3, 1), {n}));
+  }
+  put("spot", tinted(Lobe::Spot, 1, {0.2, 0.5}));
+  put("ward 0.2", tinted(Lobe::Ward, 1, {0.2, 0}));
+  put("ward 0.7, anisotropic", tinted(Lobe::Ward, ramp(0.3, 1), {0.7, 0.8}));
+  put("ashikhmin_shirley", tinted(Lobe::AshikhminShirley, ramp(0.1, 0.9), {100, 10}));
+  put("ashikhmin_shirley, round", tinted(Lobe::AshikhminShirley, 1, {3, 3}));
+  for (double r : {0.15, 0.8}) put("sheen", tinted(Lobe::Sheen, 1, {r}));
+  put("microfacet 0.1", microfacet(1, 0.1));
+  put("microfacet 0.5", microfacet(ramp(0.3, 0.8), 0.5));
+  put("microfacet 1", microfacet(1, 1));
+  put("microfacet anisotropic", microfacet(1, 0.5, 0.8));
+  put("microfacet anisotropic across", microfacet(1, 0.4, -0.5));
+  put("beckmann 0.1", beckmann(1, 0.1));
+  put("beckmann 0.5", beckmann(ramp(0.3, 0.8), 0.5));
+  put("beckmann 1", beckmann(1, 1));
+  put("beckmann anisotropic", beckmann(1, 0.5, 0.8));
+  put("conductor", conductor(ramp(0.2, 1.3), ramp(3.4, 2.1), 0.3));
+  put("coloured_metal", coloured_metal(ramp(0.9, 0.3), ramp(0.2, 1), 0.4));
+  put("dielectric 1.5, 0.3", dielectric(1.5, 0.3));
+  put("dielectric dispersive, 0.5", dielectric(ramp(1.6, 1.4), 0.5));
+  put("dielectric 1.1, 0.8", dielectric(1.1, 0.8));
+  put("dielectric 2.5, 0.6, tinted", dielectric(2.5, 0.6, 0.5, ramp(0.2, 0.8)));
+  put("phong_glass 1.5, 3", phong_glass(1.5, 3));
+  put("phong_glass dispersive, 1000", phong_glass(ramp(1.35, 1.2), 1000));
+  put("phong_glass 0.6, 40, tinted", phong_glass(0.6, 40, 0.5, ramp(0.2, 0.8)));
+  put("film_conductor", film_conductor(2.5, ramp(3, 4), 1.5, 400e-9, ramp(400e-9, 700e-9), 0.4));
+  put("coat absorbing", coat(glossy(1, 40), matte(ramp(0.9, 0.5)), 0.5, ramp(0.1, 2), 1.5));
+  put("coat over facets", coat(mirror(1), conductor(ramp(0.2, 1.3), ramp(3.4, 2.1), 0.4), 0.2,
+                               ramp(0.1, 1), ramp(1.6, 1.4)));
+  put("coat of stretched facets",
+      coat(scale(microfacet(1, 0.5, 0.8), ramp(1, 0.6)),
+           mix(matte(ramp(0.2, 0.8)), glossy(1, 20), 0.3), 0.2, ramp(0.1, 1), ramp(1.6, 1.4)));
+  put("layer", layer(tinted(Lobe::Sheen, ramp(0.3, 0.9), {0.4}),
+                     fresnel_mix(matte(0.8), glossy(1, 40), 1.5), 0.7));
+  put("mix", mix(matte(ramp(0.1, 0.9)), glossy(1, 20), ramp(0.2, 0.7)));
+  put("coat", fresnel_mix(matte(0.8), glossy(1, 40), ramp(1.6, 1.4)));
+  put("coat of facets", fresnel_mix(matte(0.8), microfacet(1, 0.4), ramp(1.6, 1.4)));
+  put("coat over rough matte",
+      fresnel_mix(tinted(Lobe::RoughMatte, 0.8, {0.5}), glossy(1, 9), 1.5));
+  put("coat of mirror", fresnel_mix(matte(0.8), mirror(1), 1.5));
+  put("nested", add(scale(fresnel_mix(mix(matte(0.5), translucent(ramp(0.1, 0.5)), 0.4),
+                                      microfacet(1, 0.4), 1.8),
+                          ramp(1, 0.5)),
+                    scale(mirror(1), 0.1)));
+  put("dielectric anisotropic", dielectric(1.5, 0.4, 1, 1, 0.8));
+  put("dielectric anisotropic across, dispersive",
+      dielectric(ramp(1.6, 1.4), 0.6, ramp(0.5, 1), 0.8, -0.5));
+  put("beckmann_dielectric 1.5, 0.3", beckmann_dielectric(1.5, 0.3));
+  put("beckmann_dielectric dispersive, 0.5", beckmann_dielectric(ramp(1.6, 1.4), 0.5));
+  put("beckmann_dielectric 1.1, 0.8", beckmann_dielectric(1.1, 0.8));
+  put("beckmann_dielectric 2.5, 0.6, tinted", beckmann_dielectric(2.5, 0.6, 0.5, ramp(0.2, 0.8)));
+  put("beckmann_dielectric 0.8, 1", beckmann_dielectric(0.8, 1));
+  put("beckmann_dielectric anisotropic", beckmann_dielectric(1.5, 0.4, 1, 1, 0.8));
+  put("beckmann_dielectric anisotropic across, dispersive",
+      beckmann_dielectric(ramp(1.6, 1.4), 0.6, ramp(0.5, 1), 0.8, -0.5));
+  put("coat over glass", coat(mirror(1), dielectric(1.5, 0.3), 0, 0, 1.5));
+  put("coat over dispersive glass, absorbing",
+      coat(mirror(ramp(0.6, 1)), dielectric(ramp(1.6, 1.4), 0.5, ramp(0.5, 1), ramp(1, 0.6)), 0.2,
+           ramp(0.1, 1), ramp(1.4, 1.7)));
+  put("coat over a mixture with glass",
+      fresnel_mix(mix(matte(0.8), scale(beckmann_dielectric(1.3, 0.6, 1, 1, 0.5), ramp(1, 0.7)),
+                      ramp(0.2, 0.9)),
+                  microfacet(1, 0), 2.2));
+  put("coat over glass of a lower index", coat(mirror(1), dielectric(0.7, 0.4), 0, 0, 1.5));
+  put("two coats over glass",
+      coat(mirror(1), fresnel_mix(dielectric(1.5, 0.4), mirror(1), 1.3), 0, 0, 1.7));
+  return c;
+}
+
+}  // namespace mms::test
