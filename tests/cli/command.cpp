@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/cli/command.h"
+#include "tests/source_dir.h"
 
 #include <pty.h>
 #include <sys/wait.h>
@@ -31,7 +32,7 @@ int exit_code(int status) {
 }  // namespace
 
 std::string project_text(const std::string& path) {
-  return slurp(std::string(MMS_SOURCE_DIR) + "/" + path);
+  return slurp(mms::source_dir().string() + "/" + path);
 }
 
 Folder::Folder() {

@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/cli/command.h"
+#include "tests/source_dir.h"
 
 using mms::cli::contains;
 using mms::cli::Folder;
@@ -110,7 +111,7 @@ TEST_CASE(
     "somewhere") {
   const Folder folder;
   std::vector<std::string> pages;  // the generated ones are in docs/ too
-  for (const auto& file : std::filesystem::directory_iterator(MMS_SOURCE_DIR "/docs"))
+  for (const auto& file : std::filesystem::directory_iterator(mms::source_dir() / "docs"))
     if (file.path().extension() == ".md") pages.push_back(file.path().string());
   CHECK(pages.size() >= 14);
   for (const std::string& page : pages) {
@@ -121,7 +122,7 @@ TEST_CASE(
     CHECK(html.starts_with("<!DOCTYPE html>"));
     CHECK(nesting_fault(html) == "");
     for (const std::string& source : attributes(html, "src"))
-      CHECK(std::filesystem::exists(MMS_SOURCE_DIR "/docs/" + source));
+      CHECK(std::filesystem::exists(mms::source_dir() / "docs/" / source));
     CHECK_FALSE(contains(html, "<link"));
     CHECK_FALSE(contains(html, "@import"));
     CHECK_FALSE(contains(html, ":url("));
@@ -138,7 +139,7 @@ TEST_CASE(
 
 TEST_CASE("every noise and pattern of the library has its picture") {
   namespace fs = std::filesystem;
-  const fs::path root = MMS_SOURCE_DIR;
+  const fs::path root = mms::source_dir();
   const std::string script = mms::cli::project_text("examples/figures/library.mms");
   const std::string page = mms::cli::project_text("docs/stdlib.md");
   std::size_t count = 0;
@@ -171,7 +172,7 @@ TEST_CASE("every noise and pattern of the library has its picture") {
 
 TEST_CASE("the scripts of the gallery are laid out and link, and their pictures are there") {
   namespace fs = std::filesystem;
-  const fs::path root = MMS_SOURCE_DIR;
+  const fs::path root = mms::source_dir();
   const Folder folder;
   for (const char* name : {"library", "noise", "fractals", "screen", "stained_glass", "copper",
                            "dispersion", "clusters", "illuminants", "frosted", "drink"}) {

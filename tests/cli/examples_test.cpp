@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/command.h"
+#include "tests/source_dir.h"
 
 using mms::cli::contains;
 using mms::cli::Folder;
@@ -141,7 +142,7 @@ TEST_CASE("the examples of the library hold") {
     INFO(module);
     CHECK(folder.mms(std::string("test ") + module).exit == 0);
   }
-  for (const auto& e : fs::directory_iterator(fs::path(MMS_SOURCE_DIR) / "stdlib")) {
+  for (const auto& e : fs::directory_iterator(mms::source_dir() / "stdlib")) {
     if (e.path().extension() != ".mms") continue;
     INFO(e.path().string());
     const Outcome run = folder.mms("test " + e.path().stem().string());
@@ -152,7 +153,7 @@ TEST_CASE("the examples of the library hold") {
 }
 
 TEST_CASE("every documented function of the library's modules has an example") {
-  for (const auto& e : fs::directory_iterator(fs::path(MMS_SOURCE_DIR) / "stdlib")) {
+  for (const auto& e : fs::directory_iterator(mms::source_dir() / "stdlib")) {
     if (e.path().extension() != ".mms") continue;
     std::ifstream in(e.path());
     bool documented = false, shown = false;

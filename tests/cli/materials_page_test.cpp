@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/command.h"
+#include "tests/source_dir.h"
 
 using mms::cli::contains;
 using mms::cli::Folder;
@@ -36,7 +37,7 @@ TEST_CASE("every model is in the figures, on the page and in a picture") {
     INFO(name);
     CHECK(contains(script, "\nsurface " + name));
     CHECK(contains(page, "\n## " + name + "\n"));
-    const fs::path picture = fs::path(MMS_SOURCE_DIR) / "docs/images/materials" / (name + ".png");
+    const fs::path picture = mms::source_dir() / "docs/images/materials" / (name + ".png");
     REQUIRE(fs::exists(picture));
     bytes += fs::file_size(picture);
     ++models;
@@ -44,7 +45,7 @@ TEST_CASE("every model is in the figures, on the page and in a picture") {
   CHECK(models >= 31);
   CHECK(bytes < 500'000);
   const Folder folder;
-  const std::string path = std::string(MMS_SOURCE_DIR) + "/examples/figures/materials.mms";
+  const std::string path = mms::source_dir().string() + "/examples/figures/materials.mms";
   CHECK(folder.mms("check " + path).exit == 0);
   CHECK(folder.mms("fmt --check " + path).exit == 0);
 }

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/cli/command.h"
+#include "tests/source_dir.h"
 
 TEST_CASE("the script of the README has no errors and no warnings") {
   const std::string text = mms::cli::project_text("README.md");
@@ -31,7 +32,7 @@ TEST_CASE("every page that the README links to is there") {
     const std::string target = text.substr(at + 2, end - at - 2);
     if (target.starts_with("http")) continue;
     INFO(target);
-    CHECK(std::ifstream(std::string(MMS_SOURCE_DIR) + "/" + target).good());
+    CHECK(std::ifstream(mms::source_dir().string() + "/" + target).good());
     ++links;
   }
   CHECK(links >= 8);

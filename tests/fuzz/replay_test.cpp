@@ -10,13 +10,14 @@
 
 #include "tests/fuzz/seeds.h"
 #include "tests/fuzz/targets.h"
+#include "tests/source_dir.h"
 
 namespace mms::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = MMS_SOURCE_DIR;
+const fs::path kRoot = mms::source_dir();
 
 std::vector<std::uint8_t> read(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "tests/source_dir.h"
 #include "vm/limits.h"
 
 namespace mms::golden {
@@ -13,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 namespace limits = vm::limits;
 
-const fs::path kFolder = fs::path(MMS_SOURCE_DIR) / "tests" / "golden";
+const fs::path kFolder = mms::source_dir() / "tests" / "golden";
 
 std::string brackets(int n) {
   return "const a = " + repeated("(", n) + "1" + repeated(")", n) + ";";

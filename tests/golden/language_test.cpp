@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/golden/expectations.h"
+#include "tests/source_dir.h"
 
 namespace mms::golden {
 namespace {
@@ -36,7 +37,7 @@ std::vector<Block> blocks_of(const std::string& path) {
 
 TEST_CASE("the examples of docs/language.md") {
   int linked = 0, wrong = 0;
-  for (const Block& b : blocks_of(MMS_SOURCE_DIR "/docs/language.md")) {
+  for (const Block& b : blocks_of((mms::source_dir() / "docs/language.md").string())) {
     if (!b.info.starts_with("mms")) continue;
     CAPTURE(b.line);
     std::string text = b.text;

@@ -11,6 +11,7 @@
 #include "stdlib/stdlib.h"
 #include "tests/golden/corpus.h"
 #include "tests/golden/evaluate.h"
+#include "tests/source_dir.h"
 #include "vm/limits.h"
 
 namespace mms::golden {
@@ -73,7 +74,7 @@ TEST_CASE("each limit is kept by one script and broken by another, which is told
 }
 
 TEST_CASE("every number of vm/limits.h has its two scripts") {
-  std::ifstream in(MMS_SOURCE_DIR "/vm/limits.h");
+  std::ifstream in(mms::source_dir() / "vm/limits.h");
   REQUIRE(in);
   std::ostringstream text;
   text << in.rdbuf();

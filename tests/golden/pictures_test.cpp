@@ -13,12 +13,13 @@
 #include "stdlib/stdlib.h"
 #include "tests/golden/evaluate.h"
 #include "tests/sanitized.h"
+#include "tests/source_dir.h"
 
 namespace mms::golden {
 namespace {
 
 std::string text_of(const char* name) {
-  std::ifstream in(std::filesystem::path(MMS_SOURCE_DIR) / "examples/figures" / name);
+  std::ifstream in(mms::source_dir() / "examples/figures" / name);
   return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
@@ -112,8 +113,7 @@ TEST_CASE("every noise and pattern has its picture in the manual, and what has n
   std::set<std::string> pictured;
   for (const vm::Descriptor& d : c.linked->program.descriptors) {
     CHECK_MESSAGE(names.count(d.name) == 1, d.name << " is no noise and no pattern");
-    const auto file =
-        std::filesystem::path(MMS_SOURCE_DIR) / "docs/images/library" / (d.name + ".png");
+    const auto file = mms::source_dir() / "docs/images/library" / (d.name + ".png");
     CHECK_MESSAGE(std::filesystem::exists(file), file.string() << ": `./run figures` makes it");
     pictured.insert(d.name);
   }

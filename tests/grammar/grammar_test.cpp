@@ -12,6 +12,7 @@
 #include "tests/golden/corpus.h"
 #include "tests/grammar/recogniser.h"
 #include "tests/sanitized.h"
+#include "tests/source_dir.h"
 
 namespace mms::grammar {
 namespace {
@@ -58,7 +59,7 @@ std::vector<lang::SourcePtr> corpus() {
   for (const fs::path& p : golden::scripts()) add(p);
   for (const char* folder : {"/examples", "/stdlib", "/tests/golden/imports/parts"}) {
     std::vector<fs::path> files;
-    for (const auto& e : fs::directory_iterator(fs::path(MMS_SOURCE_DIR) += folder))
+    for (const auto& e : fs::directory_iterator(fs::path(mms::source_dir()) += folder))
       if (e.path().extension() == ".mms") files.push_back(e.path());
     std::sort(files.begin(), files.end());
     for (const fs::path& p : files) add(p);

@@ -21,6 +21,7 @@
 #include "renderer/scene.h"
 #include "stdlib/stdlib.h"
 #include "tests/sanitized.h"
+#include "tests/source_dir.h"
 
 using namespace mms;
 using namespace mms::renderer;
@@ -92,7 +93,7 @@ Film picture_of(const Case& c, int samples, std::uint64_t seed) {
 }
 
 std::string path_of(const Case& c) {
-  return std::string(MMS_SOURCE_DIR) + "/tests/render/" + c.name + ".exr";
+  return mms::source_dir().string() + "/tests/render/" + c.name + ".exr";
 }
 
 /// Pictures of a few samples each with seeds of their own: what their means scatter by is known

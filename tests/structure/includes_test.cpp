@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The folder listing is the architecture: includes run one way.
 #include "tests/structure/includes.h"
+#include "tests/source_dir.h"
 
 #include <filesystem>
 #include <fstream>
@@ -19,7 +20,7 @@ std::string read(const fs::path& path) {
 }
 
 const Rules& rules() {
-  static const Rules all = read_rules(read(fs::path(MMS_SOURCE_DIR) / "ARCHITECTURE.md"));
+  static const Rules all = read_rules(read(mms::source_dir() / "ARCHITECTURE.md"));
   return all;
 }
 
@@ -45,12 +46,12 @@ TEST_CASE("the table has a row for every folder of sources") {
 TEST_CASE("every include of the sources is allowed") {
   std::size_t files = 0;
   for (const auto& [folder, rule] : rules()) {
-    const fs::path root = fs::path(MMS_SOURCE_DIR) / folder;
+    const fs::path root = mms::source_dir() / folder;
     if (!fs::exists(root)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(root)) {
       if (!entry.is_regular_file() || !is_source(entry.path())) continue;
       ++files;
-      const std::string path = fs::relative(entry.path(), MMS_SOURCE_DIR).generic_string();
+      const std::string path = fs::relative(entry.path(), mms::source_dir()).generic_string();
       for (const std::string& complaint : check(rules(), path, read(entry.path())))
         FAIL_CHECK(complaint);
     }

@@ -12,6 +12,7 @@
 
 #include "lang/lexer.h"
 #include "lang/parser.h"
+#include "tests/source_dir.h"
 
 namespace {
 
@@ -58,7 +59,7 @@ std::vector<std::string> contents(const SourcePtr& source) {
 std::vector<fs::path> scripts() {
   std::vector<fs::path> all;
   for (const char* folder : {"tests/golden", "stdlib", "examples", "bench/shaders"})
-    for (const auto& e : fs::recursive_directory_iterator(fs::path(MMS_SOURCE_DIR) / folder))
+    for (const auto& e : fs::recursive_directory_iterator(mms::source_dir() / folder))
       if (e.path().extension() == ".mms") all.push_back(e.path());
   return all;
 }

@@ -14,6 +14,7 @@
 #include "renderer/picture.h"
 #include "renderer/textures.h"
 #include "tests/sanitized.h"
+#include "tests/source_dir.h"
 #include "tests/unit/renderer/lookups.h"
 #include "vm/interval.h"
 
@@ -372,7 +373,7 @@ TEST_CASE("textures: bounds hold any lookup; near the texels that it sees, and f
 TEST_CASE("textures: what is no picture or is cut off is an error") {
   const Folder folder;
   folder.write("a.tif", random_texels(64, 64, 3));
-  fs::copy_file(MMS_SOURCE_DIR "/docs/images/hero.png", folder / "a.png");
+  fs::copy_file(mms::source_dir() / "docs/images/hero.png", folder / "a.png");
   Film film{64, 64, {}, {}};
   film.xyz.resize(64 * 64, {0.5, 0.25, 1});
   film.variance.resize(64 * 64, 0);

@@ -10,6 +10,7 @@
 #include <map>
 #include <string>
 
+#include "tests/source_dir.h"
 #include "tests/unit/stdlib/rows.h"
 
 namespace mms::stdlib::testing {
@@ -109,7 +110,7 @@ TEST_CASE("every row has an oracle that is not the library, and the tests that a
   }
   for (const Judge& judge : kJudges) {
     CHECK_MESSAGE(used[judge.test], judge.test << " judges no row");
-    std::ifstream in(std::filesystem::path(MMS_SOURCE_DIR) / "tests" / judge.file);
+    std::ifstream in(mms::source_dir() / "tests" / judge.file);
     const std::string text(std::istreambuf_iterator<char>(in), {});
     const std::string head = "TEST_CASE(";
     bool found = false;
