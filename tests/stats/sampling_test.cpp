@@ -35,14 +35,19 @@ TEST_CASE("samples follow the density") {
     for (double degrees : kDegrees) {
       const Vec3<float> wo(direction(degrees, 0.7));
       const Vec3d wo_exact = normalize(Vec3d(wo));
+      const auto choice = sampled.choose(wo);
+      const auto choice_exact = exact.choose(wo_exact);
       const auto r = stats::chi_square(
           {.sample = [&](stats::Random& random) -> std::optional<Vec3d> {
              const float u = random.next_float(), u1 = random.next_float();
-             const auto s = sampled.sample(wo, u, u1, random.next_float(), Mode::Radiance);
+             const auto s = sampled.sample(wo, u, u1, random.next_float(), Mode::Radiance, choice);
              if (!s || s->specular) return {};
              return normalize(Vec3d(s->wi));
            },
-           .pdf = [&](Vec3d wi) { return exact.pdf(wo_exact, wi, Mode::Radiance)[0]; },
+           .pdf =
+               [&](Vec3d wi) {
+                 return exact.evaluate(wo_exact, wi, Mode::Radiance, choice_exact).pdf[0];
+               },
            .count = count,
            .seed = ++seed});
       worst = std::min(worst, r.p_value);
@@ -63,15 +68,16 @@ TEST_CASE("a sample reports what eval and pdf say, and its mean weight is the al
     const Bsdf<double> bsdf(layout, p.data()), hero(layout, p_hero.data());
     for (double degrees : kDegrees) {
       const Vec3d wo = direction(degrees, 0.7);
+      const auto choice = bsdf.choose(wo), hero_choice = hero.choose(wo);
       stats::Random random(++seed);
       // With wi drawn uniformly over projected solid angle of both sides, an estimate that does not
       // use the model's own sampling at all.
       stats::Moments drawn, reference;
       double largest = 0;
       int wrong = 0;
-      for (int i = 0; i < 20000; ++i) {
+      for (int i = 0; i < (kSanitized ? 5000 : 20000); ++i) {
         const double u = random.next(), u1 = random.next(), u2 = random.next();
-        const auto s = bsdf.sample(wo, u, u1, u2, Mode::Importance);
+        const auto s = bsdf.sample(wo, u, u1, u2, Mode::Importance, choice);
         const bool smooth = s && !s->specular;
         drawn.add(smooth ? s->f[0] * std::abs(s->wi.z) / s->pdf[0] : 0);
         if (smooth && i < 2000) {
@@ -81,7 +87,8 @@ TEST_CASE("a sample reports what eval and pdf say, and its mean weight is the al
         }
         Vec3d wi = square_to_cosine_hemisphere(u1, u2);
         if (u < 0.5) wi.z = -wi.z;
-        const double weight = 2 * kPi<double> * hero.eval(wo, wi, Mode::Importance)[0];
+        const double weight =
+            2 * kPi<double> * hero.evaluate(wo, wi, Mode::Importance, hero_choice).f[0];
         largest = std::max(largest, weight);
         reference.add(weight);
       }
