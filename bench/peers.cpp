@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time to an error beside Blender's Cycles, on the scene `sphere` of both: writes its part of
+// Time to an error beside Blender's Cycles, on scenes of both: writes its part of
 // docs/performance.md. Blender is started once a material and rendered with in turn with ours.
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,6 +23,25 @@
 namespace mms::bench {
 namespace {
 
+/// Scenes of both, as text: a built-in one, and one whose light is found more easily.
+struct Stage {
+  const char* name;
+  std::string text;
+};
+std::vector<Stage> stages() {
+  return {{"sphere", std::string(*renderer::builtin_scene_text("sphere"))}, {"plain", R"({
+  // A ball on the ground, one lamp above it, and a sky that is the same all over.
+  "environment": {"constant": 0.5},
+  "materials": {"ground": {"matte": 0.5}, "lamp": {"matte": 0, "emission": 8}},
+  "camera": {"position": [0, 1.5, 6], "target": [0, 0, 0], "fov": 30},
+  "objects": [
+    {"name": "ball", "sphere": {"radius": 1}, "test": true},
+    {"quad": {"corner": [-10, -1, 10], "u": [20, 0, 0], "v": [0, 0, -20]}, "surface": "ground"},
+    {"name": "lamp", "quad": {"corner": [-1, 4, -1], "u": [2, 0, 0], "v": [0, 0, 2]}, "surface": "lamp"}
+  ]
+})"}};
+}
+
 constexpr int kSide = 256, kDepth = 8, kRounds = 5, kMostSamples = 4096;
 constexpr double kError = 0.01;
 
@@ -36,11 +55,11 @@ using Renderer = std::function<Picture(int samples, int seed)>;
 /// A Blender that renders with Cycles when it is told to (bench/cycles.py).
 class Cycles {
  public:
-  explicit Cycles(const std::string& material) {
+  Cycles(const std::string& scene, const std::string& material) {
     namespace fs = std::filesystem;
     folder_ = (fs::temp_directory_path() / "mms-peers-XXXXXX").string();
     if (!mkdtemp(folder_.data())) give_up("no temporary folder");
-    std::ofstream(folder_ + "/scene.json") << *renderer::builtin_scene_text("sphere");
+    std::ofstream(folder_ + "/scene.json") << scene;
     int to[2], from[2];
     if (pipe(to) != 0 || pipe(from) != 0) give_up("no pipe");
     child_ = fork();
@@ -151,9 +170,9 @@ double mean(const Picture& p) {
   return sum / double(p.luminance.size());
 }
 
-std::string row(const Material& material, const char* spectral_peer) {
-  const Setting setting(material.script, "sphere");
-  Cycles blender(material.name);
+std::string row(const Stage& stage, const Material& material, const char* spectral_peer) {
+  const Setting setting(material.script, stage.text);
+  Cycles blender(stage.text, material.name);
   const Renderer mms = ours(setting),
                  cycles = [&](int n, int seed) { return blender.render(n, seed); };
   const double mms_samples = samples_to_error(mms), cycles_samples = samples_to_error(cycles);
@@ -171,42 +190,49 @@ std::string row(const Material& material, const char* spectral_peer) {
     return 1e6 * median(s) / (samples * kSide * kSide);
   };
   return fmt::format(
-      "| {} | {:.2f} us, {:.1f}, {:.2f} s | {:.2f} us, {:.1f}, {:.2f} s | {} | "
+      "| {}, {} | {:.2f} us, {:.1f}, {:.2f} s | {:.2f} us, {:.1f}, {:.2f} s | {} | "
       "{:.3f} | {} |\n",
-      material.name, per_sample(mms_seconds, mms_samples), mms_samples, median(mms_seconds),
-      per_sample(cycles_seconds, cycles_samples), cycles_samples, median(cycles_seconds),
-      quartiles(ratios(cycles_seconds, mms_seconds), "{:.2f}"), mms_mean / cycles_mean,
-      spectral_peer);
+      stage.name, material.name, per_sample(mms_seconds, mms_samples), mms_samples,
+      median(mms_seconds), per_sample(cycles_seconds, cycles_samples), cycles_samples,
+      median(cycles_seconds), quartiles(ratios(cycles_seconds, mms_seconds), "{:.2f}"),
+      mms_mean / cycles_mean, spectral_peer);
 }
 
 std::string peers() {
   constexpr const char* kSpectralPeer[] = {"18 s", "60 s", "193 s"};
   std::string text = fmt::format(
       "## The peers\n\n"
-      "Ours beside Cycles of Blender, Debian's package, on the scene `sphere` of both: one thread, "
-      "at most {} "
-      "scattering events,\n{}x{} pixels, box filter. Microseconds a sample, samples a pixel and "
-      "the "
-      "processor's seconds to a root mean square\nerror of luminance of {} (1 is white), by what "
-      "pictures of other seeds differ; times are medians of {} rounds\nin turn, the ratio with "
-      "quartiles. "
-      "Of ours all of a render counts, of Cycles what each sample after the first\nadds: neither "
-      "building its scene nor what it writes. Cycles draws red, green and blue, its metal has one "
-      "reflectance for\nall angles, its ball is of 32,768 triangles "
-      "(`bench/cycles.py`).\nBrightness: mean luminance of ours over that of Cycles. "
-      "The "
-      "last column was measured earlier on an older processor, in\na renderer for "
-      "research, on spheres of similar materials in similar light, not on this very "
-      "scene.\nReproduce: `./run bench` (`bench_peers`, which starts `blender`).\n\n"
-      "| material | ours | Cycles | Cycles / ours | brightness | leading spectral research "
+      "Ours beside Cycles of Blender, Debian's package, on scenes of both: `sphere`, and `plain`, "
+      "a ball "
+      "on the\nground under one lamp and an even sky (`bench/peers.cpp`). One thread, at most {} "
+      "scattering "
+      "events, {}x{}\npixels, box filter. Microseconds a sample, samples a pixel and the "
+      "processor's seconds "
+      "to a root mean square\nerror of luminance of {} (1 is white), by what pictures of other "
+      "seeds differ; "
+      "times are medians of {} rounds\nin turn, the ratio with quartiles. Of ours all of a render "
+      "counts, of "
+      "Cycles what each sample after the first\nadds: neither building its scene nor what it "
+      "writes. Cycles "
+      "draws red, green and blue, its metal has one\nreflectance for all angles, its ball is of "
+      "32,768 "
+      "triangles (`bench/cycles.py`). Brightness: mean luminance of\nours over that of Cycles. The "
+      "last column "
+      "was measured earlier on an older processor, in a renderer for\nresearch, on spheres of "
+      "similar materials "
+      "in similar light, not on these very scenes. Reproduce: `./run bench`\n(`bench_peers`, which "
+      "starts "
+      "`blender`).\n\n"
+      "| scene, material | ours | Cycles | Cycles / ours | brightness | leading spectral research "
       "renderer |\n"
       "|---|---|---|---|---|---|\n",
       kDepth, kSide, kSide, kError, kRounds);
   const std::vector<Material> all = materials();
-  for (std::size_t i = 0; i < std::size(kSpectralPeer); ++i) {
-    text += row(all[i], kSpectralPeer[i]);
-    fmt::print(stderr, "{}: done\n", all[i].name);
-  }
+  for (const Stage& stage : stages())
+    for (std::size_t i = 0; i < std::size(kSpectralPeer); ++i) {
+      text += row(stage, all[i], kSpectralPeer[i]);
+      fmt::print(stderr, "{}, {}: done\n", stage.name, all[i].name);
+    }
   return text;
 }
 
