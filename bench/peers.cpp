@@ -200,33 +200,23 @@ std::string row(const Stage& stage, const Material& material, const char* spectr
 
 std::string peers() {
   constexpr const char* kSpectralPeer[] = {"18 s", "60 s", "193 s"};
-  std::string text = fmt::format(
-      "## The peers\n\n"
-      "Ours beside Cycles of Blender, Debian's package, on scenes of both: `sphere`, and `plain`, "
-      "a ball "
-      "on the\nground under one lamp and an even sky (`bench/peers.cpp`). One thread, at most {} "
-      "scattering "
-      "events, {}x{}\npixels, box filter. Microseconds a sample, samples a pixel and the "
-      "processor's seconds "
-      "to a root mean square\nerror of luminance of {} (1 is white), by what pictures of other "
-      "seeds differ; "
-      "times are medians of {} rounds\nin turn, the ratio with quartiles. Of ours all of a render "
-      "counts, of "
-      "Cycles what each sample after the first\nadds: neither building its scene nor what it "
-      "writes. Cycles "
-      "draws red, green and blue, its metal has one\nreflectance for all angles, its ball is of "
-      "32,768 "
-      "triangles (`bench/cycles.py`). Brightness: mean luminance of\nours over that of Cycles. The "
-      "last column "
-      "was measured earlier on an older processor, in a renderer for\nresearch, on spheres of "
-      "similar materials "
-      "in similar light, not on these very scenes. Reproduce: `./run bench`\n(`bench_peers`, which "
-      "starts "
-      "`blender`).\n\n"
-      "| scene, material | ours | Cycles | Cycles / ours | brightness | leading spectral research "
-      "renderer |\n"
-      "|---|---|---|---|---|---|\n",
-      kDepth, kSide, kSide, kError, kRounds);
+  std::string text = fmt::format(R"(## The peers
+
+Ours beside Cycles of Blender, Debian's package, on scenes of both: `sphere`, and `plain`, a ball on the
+ground under one lamp and an even sky (`bench/peers.cpp`). One thread, at most {} scattering events, {}x{}
+pixels, box filter. Microseconds a sample, samples a pixel and the processor's seconds to a root mean square
+error of luminance of {} (1 is white), by what pictures of other seeds differ; times are medians of {} rounds
+in turn, the ratio with quartiles. Of ours all of a render counts, of Cycles what each sample after the first
+adds: neither building its scene nor what it writes. Cycles draws red, green and blue, its metal has one
+reflectance for all angles, its ball is of 32,768 triangles (`bench/cycles.py`). Brightness: mean luminance of
+ours over that of Cycles. The last column was measured earlier on an older processor, in a renderer for
+research, on spheres of similar materials in similar light, not on these very scenes. Reproduce: `./run bench`
+(`bench_peers`, which starts `blender`).
+
+| scene, material | ours | Cycles | Cycles / ours | brightness | leading spectral research renderer |
+|---|---|---|---|---|---|
+)",
+                                 kDepth, kSide, kSide, kError, kRounds);
   const std::vector<Material> all = materials();
   for (const Stage& stage : stages())
     for (std::size_t i = 0; i < std::size(kSpectralPeer); ++i) {
