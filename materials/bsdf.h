@@ -29,10 +29,13 @@
 /// * Numbers out of range (negative or NaN colour, roughness, ...) are clamped into range.
 
 #include <optional>
+#include <tuple>
 
 #include "materials/coats_above.h"
+#include "materials/dielectric.h"
 #include "materials/layout.h"
 #include "materials/lobe.h"
+#include "materials/microfacet.h"
 #include "materials/two_coats.h"
 #include "materials/under_coats.h"
 
@@ -67,6 +70,8 @@ class Bsdf {
     PerNode<CoatAbove<R>> coats;         ///< where there is more than one node
     SolvedPerNode<LowerCoat<R>> lower;   ///< of nodes whose `coats` says so
     SolvedPerNode<UnderCoats<R>> under;  ///< of lobes of which `solved_under` is true
+    /// What models with a function `seen` said of `wo`.
+    std::tuple<PerNode<FacetsSeen<R>>, PerNode<InterfaceSeen<R>>> seen;
   };
   /// For all that comes along `wo`: made once where one `wo` meets many `wi`. What a choice was
   /// before, of any material, saves time where coats are the same.

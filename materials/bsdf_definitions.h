@@ -14,11 +14,9 @@
 #include "materials/bsdf.h"
 #include "materials/combine.h"
 #include "materials/conductor.h"
-#include "materials/dielectric.h"
 #include "materials/film.h"
 #include "materials/glossy.h"
 #include "materials/matte.h"
-#include "materials/microfacet.h"
 #include "materials/oren_nayar.h"
 #include "materials/phong_glass.h"
 #include "materials/radial.h"
@@ -40,7 +38,8 @@ concept CanBeSpecular = requires(const M& m) {
 template <class M>
 concept CanBeSmooth = requires(const M& m) {
   m.evaluate({}, {}, Mode{});
-};
+}
+|| requires(const M& m) { m.seen({}); };
 
 /// How much of a coat's factor for Lambert lobes (materials/combine.h) the model gets, the rest
 /// being the factor for others: all for a Lambert lobe. One that is nearly that gains by the first
@@ -65,6 +64,35 @@ inline bool knows_coat(const M& model, const R* ior) {
     return model.knows_coat(ior);
   else
     return false;
+}
+
+/// Remembers what the model of node `i` is along `wo`, if it is more than its numbers.
+template <class R, class M>
+inline void see(const M& model, Vec3<R> wo, int i, typename Bsdf<R>::Choice& choice) {
+  if constexpr (requires { model.seen(wo); })
+    std::get<PerNode<decltype(model.seen(wo))>>(choice.seen).of[i] = model.seen(wo);
+}
+template <class R, class M>
+inline const auto& seen(const M& model, Vec3<R> wo, int i, const typename Bsdf<R>::Choice& choice) {
+  return std::get<PerNode<decltype(model.seen(wo))>>(choice.seen).of[i];
+}
+
+/// What the model of node `i` gives and takes, as `choice` has seen it. \pre CanBeSmooth
+template <class R, class M>
+inline Lobes<R> evaluate(const M& model, Vec3<R> wo, Vec3<R> wi, Mode mode, int i,
+                         const typename Bsdf<R>::Choice& choice) {
+  if constexpr (requires { model.seen(wo); })
+    return model.evaluate(wo, wi, mode, seen<R>(model, wo, i, choice));
+  else
+    return model.evaluate(wo, wi, mode);
+}
+template <class R, class M>
+inline bool sample(const M& model, Vec3<R> wo, R u_lobe, R u1, R u2, int i,
+                   const typename Bsdf<R>::Choice& choice, Vec3<R>& wi) {
+  if constexpr (requires { model.seen(wo); })
+    return model.sample(wo, u_lobe, u1, u2, seen<R>(model, wo, i, choice), wi);
+  else
+    return model.sample(wo, u_lobe, u1, u2, wi);
 }
 
 template <class M>
@@ -171,7 +199,10 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
   if (node_count() == 0 || in_surface(wo)) return;
   auto& probability = choice.probability.of;
   const auto estimate = [&](int i) {
-    return with_model(i, Spectrum<R>(), [&](const auto& m) { return m.estimate(wo); });
+    return with_model(i, Spectrum<R>(), [&](const auto& model) {
+      if (!detail::is_specular(model)) detail::see<R>(model, wo, i, choice);
+      return model.estimate(wo);
+    });
   };
   // Below this the inverse would overflow: black.
   constexpr R least = std::numeric_limits<R>::min() / std::numeric_limits<R>::epsilon();
@@ -232,7 +263,7 @@ Lobes<R> Bsdf<R>::evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choi
   return with_model(0, Lobes<R>(), [&](const auto& model) {
     Lobes<R> l;
     if constexpr (detail::CanBeSmooth<std::decay_t<decltype(model)>>) {
-      if (!detail::is_specular(model)) l = model.evaluate(wo, wi, mode);
+      if (!detail::is_specular(model)) l = detail::evaluate<R>(model, wo, wi, mode, 0, choice);
       l.pdf *= choice.probability.of[0];
     }
     return l;
@@ -250,7 +281,7 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
       if constexpr (detail::CanBeSmooth<Model>) {
         if (detail::is_specular(model)) return 0;
         const R share = detail::lambert_share<R>(model);
-        const Lobes<R> l = model.evaluate(wo, wi, mode);
+        const Lobes<R> l = detail::evaluate<R>(model, wo, wi, mode, i, choice);
         total.pdf += l.pdf * choice.probability.of[i];
         if constexpr (requires { model.coated(wo); }) {
           const CoatAbove<R>& coat = choice.coats.of[i];
@@ -300,7 +331,7 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_smooth(int lobe, Vec3<R> wo, R u, R
   BsdfSample<R> s;
   const bool drawn = with_model(lobe, false, [&](const auto& model) {
     if constexpr (detail::CanBeSmooth<std::decay_t<decltype(model)>>)
-      return model.sample(wo, u, u1, u2, s.wi);
+      return detail::sample<R>(model, wo, u, u1, u2, lobe, choice, s.wi);
     else
       return false;
   });

@@ -19,10 +19,12 @@ struct ConductorFresnel {
 
   /// At the cosine of incidence `c`.
   Spectrum<R> operator()(R c) const {
-    const Spectrum<R> n = weight_at(p), k = weight_at(p + kWavelengths);
-    if (n == Spectrum<R>(n[0]) && k == Spectrum<R>(k[0]))
-      return Spectrum<R>(fresnel_conductor(c, n[0], k[0]));
-    return side_by_side(c, n, k);
+    bool grey = true;
+    for (int j = 1; j < kWavelengths; ++j)
+      grey &= int(p[j] == p[0]) & int(p[kWavelengths + j] == p[kWavelengths]);
+    if (grey)
+      return Spectrum<R>(fresnel_conductor(c, non_negative(p[0]), non_negative(p[kWavelengths])));
+    return side_by_side(c, weight_at(p), weight_at(p + kWavelengths));
   }
 
  private:
@@ -90,18 +92,22 @@ struct RoughMetal {
            reflectance(R(0.9114120405)) * R(0.4018638274);
   }
 
-  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode) const {
-    const auto v = rough.evaluate(wo, wi);
-    if (!(v.pdf > 0)) return {};
-    Lobes<R> out{reflectance(v.cos_h) * v.single, Spectrum<R>(v.pdf)};
+  FacetsSeen<R> seen(Vec3<R> wo) const {
+    FacetsSeen<R> s = rough.seen(wo);
     const Spectrum<R> mean = mean_reflectance();
     for (int j = 0; j < kWavelengths; ++j)
-      out.f[j] += multiple_fresnel(std::min(mean[j], R(1)), v.mean) * v.multiple;
-    return out;
+      s.further[j] = multiple_fresnel(std::min(mean[j], R(1)), s.mean);
+    return s;
   }
 
-  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, Vec3<R>& wi) const {
-    return rough.sample(wo, u_lobe, u1, u2, wi);
+  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode, const FacetsSeen<R>& seen) const {
+    const auto v = rough.evaluate(wo, wi, seen);
+    if (!(v.pdf > 0)) return {};
+    return {reflectance(v.cos_h) * v.single + seen.further * v.multiple, Spectrum<R>(v.pdf)};
+  }
+
+  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const FacetsSeen<R>& seen, Vec3<R>& wi) const {
+    return rough.sample(wo, u_lobe, u1, u2, seen, wi);
   }
 };
 

@@ -14,6 +14,16 @@
 
 namespace mms::materials {
 
+/// Facets of an interface along one direction, for each wavelength: what is found once for all that
+/// it meets.
+template <class R>
+struct InterfaceSeen {
+  R shadow = 0;                       ///< |w.z| Lambda(w)
+  Spectrum<R> lost;                   ///< by the first bounce
+  Spectrum<R> transmit;               ///< share of that which goes to the far side
+  Spectrum<R> mean_here, mean_there;  ///< of what the two sides lose over their hemispheres
+};
+
 template <class R, template <class> class Distribution>
 struct RoughInterface {
   const R* ior;
@@ -82,39 +92,65 @@ struct RoughInterface {
     return back;
   }
 
-  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode) const {
+  InterfaceSeen<R> seen(Vec3<R> wo) const {
+    InterfaceSeen<R> s;
+    s.shadow = facets.shadow(wo);
+    for (int j = 0; j < kWavelengths; ++j) {
+      const int same = j - repeated(j);
+      if (same == j) {
+        const R eta = rough_eta(j, wo);
+        const InterfaceLoss<R> here = loss(eta);
+        s.lost[j] = here.at(wo);
+        s.mean_here[j] = here.mean();
+        s.mean_there[j] = loss(1 / eta).mean();
+        s.transmit[j] = transmitted_share(s.mean_here[j], s.mean_there[j], eta);
+      } else {
+        s.lost[j] = s.lost[same];
+        s.mean_here[j] = s.mean_here[same];
+        s.mean_there[j] = s.mean_there[same];
+        s.transmit[j] = s.transmit[same];
+      }
+    }
+    return s;
+  }
+
+  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const InterfaceSeen<R>& seen) const {
     const bool reflects = same_side(wo, wi);
-    Lobes<R> out = reflects ? evaluate_reflection(wo, wi) : evaluate_transmission(wo, wi, mode);
+    Lobes<R> out = reflects ? evaluate_reflection(wo, wi, seen.shadow)
+                            : evaluate_transmission(wo, wi, seen.shadow, mode);
     const R pdf = BounceSampling<R>{facets.ax * facets.ay}.pdf(std::abs(wi.z));
-    Bounces b;
-    R shape = 0;
+    const Spectrum<R>& mean = reflects ? seen.mean_here : seen.mean_there;
+    R eta = 1, shape = 0;  // what further bounces spread along wi
     for (int j = 0; j < kWavelengths; ++j) {
       if (!repeated(j)) {
-        b = bounces(j, wo);
-        shape = b.shape(wi, reflects);
+        eta = rough_eta(j, wo);
+        shape = loss(reflects ? eta : 1 / eta).at(wi) / (kPi<R> * mean[j]);
       }
-      const R f = reflects ? b.reflect * reflected[j] : b.transmit * transmitted[j];
-      const R scale = reflects || mode == Mode::Importance ? R(1) : 1 / (b.eta * b.eta);
-      out.f[j] += b.lost * f * shape * scale;
-      const Choice c = choose(j, {b.reflect, b.transmit});
-      out.pdf[j] = (1 - b.lost) * out.pdf[j] + b.lost * (reflects ? c.reflect : c.transmit) * pdf;
+      const FresnelSplit<R> further{1 - seen.transmit[j], seen.transmit[j]};
+      const R f =
+          reflects ? further.reflected * reflected[j] : further.transmitted * transmitted[j];
+      const R scale = reflects || mode == Mode::Importance ? R(1) : 1 / (eta * eta);
+      out.f[j] += seen.lost[j] * f * shape * scale;
+      const Choice c = choose(j, further);
+      out.pdf[j] = (1 - seen.lost[j]) * out.pdf[j] +
+                   seen.lost[j] * (reflects ? c.reflect : c.transmit) * pdf;
     }
     return out;
   }
 
-  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, Vec3<R>& wi) const {
+  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const InterfaceSeen<R>& seen, Vec3<R>& wi) const {
     const Vec3<R> up = to_upper(wo, wo);
-    const Bounces b = bounces(0, wo);
-    if (u_lobe < b.lost) {
-      const Choice c = choose(0, {b.reflect, b.transmit});
+    const R lost = seen.lost[0];
+    if (u_lobe < lost) {
+      const Choice c = choose(0, {1 - seen.transmit[0], seen.transmit[0]});
       if (!(c.reflect + c.transmit > 0)) return false;
       wi = BounceSampling<R>{facets.ax * facets.ay}.sample(u1, u2);
       if (!(wi.z > 0)) return false;
-      const bool down = u_lobe >= c.reflect * b.lost;
+      const bool down = u_lobe >= c.reflect * lost;
       wi.z = down == (wo.z > 0) ? -wi.z : wi.z;
       return true;
     }
-    u_lobe = (u_lobe - b.lost) / (1 - b.lost);
+    u_lobe = (u_lobe - lost) / (1 - lost);
     const Vec3<R> h = facets.sample_visible(up, u1, u2);
     const R c = dot(up, h);
     if (!(c > 0)) return false;
@@ -157,32 +193,8 @@ struct RoughInterface {
     return wo.z > 0 ? bent : 1 / bent;
   }
 
-  /// All bounces but the first, at one wavelength.
-  struct Bounces {
-    R eta = 1;
-    R lost = 0;                   ///< by the first, of what comes along wo
-    R reflect = 0, transmit = 0;  ///< shares of it; their sum is 1
-    InterfaceLoss<R> here, there;
-    R mean_here = 0, mean_there = 0;
-
-    /// f of a share along `wi`.
-    R shape(Vec3<R> wi, bool reflects) const {
-      return (reflects ? here : there).at(wi) / (kPi<R> * (reflects ? mean_here : mean_there));
-    }
-  };
-
-  Bounces bounces(int j, Vec3<R> wo) const {
-    Bounces b;
-    b.eta = rough_eta(j, wo);
-    b.here = {&facets.interface(), facets.ax, facets.ay, b.eta};
-    b.there = {&facets.interface(), facets.ax, facets.ay, 1 / b.eta};
-    b.mean_here = b.here.mean();
-    b.mean_there = b.there.mean();
-    b.lost = b.here.at(wo);
-    b.transmit = transmitted_share(b.mean_here, b.mean_there, b.eta);
-    b.reflect = 1 - b.transmit;
-    return b;
-  }
+  /// To further bounces, of what comes from where the index beyond is `eta` times as high.
+  InterfaceLoss<R> loss(R eta) const { return {&facets.interface(), facets.ax, facets.ay, eta}; }
 
   /// All is as at the wavelength before.
   bool repeated(int j) const {
@@ -198,26 +210,28 @@ struct RoughInterface {
     return {r / sum, t / sum};
   }
 
-  Lobes<R> evaluate_reflection(Vec3<R> wo, Vec3<R> wi) const {
+  /// By the first bounce; `shadow` is that of `wo`.
+  Lobes<R> evaluate_reflection(Vec3<R> wo, Vec3<R> wi, R shadow) const {
     Lobes<R> out;
     const Vec3<R> o = to_upper(wo, wo), i = to_upper(wi, wo);
     const HalfVector<R> half(o, i);
     const Vec3<R> h = half.h;
     if (!(h.z > 0)) return out;
-    const R f = facets.density(h) * materials::masking(facets, o, i),
-            pdf = visible(facets, o, h) / 4;
+    const R f = facets.density(h) * materials::masking(facets, o, shadow, i),
+            pdf = visible(facets, o, shadow, h) / 4;
+    FresnelSplit<R> s;
     for (int j = 0; j < kWavelengths; ++j) {
-      const FresnelSplit<R> s = fresnel_split(half.cosine, rough_eta(j, wo));
+      if (!repeated(j)) s = fresnel_split(half.cosine, rough_eta(j, wo));
       out.f[j] = s.reflected * reflected[j] * f;
       out.pdf[j] = choose(j, s).reflect * pdf;
     }
     return out;
   }
 
-  Lobes<R> evaluate_transmission(Vec3<R> wo, Vec3<R> wi, Mode mode) const {
+  Lobes<R> evaluate_transmission(Vec3<R> wo, Vec3<R> wi, R shadow, Mode mode) const {
     Lobes<R> out;
     const Vec3<R> o = to_upper(wo, wo), i = to_upper(wi, wo);
-    const R masking = materials::masking(facets, o, i);
+    const R masking = materials::masking(facets, o, shadow, i);
     for (int j = 0; j < kWavelengths; ++j) {
       const R eta = rough_eta(j, wo);
       if (repeated(j)) {
@@ -239,7 +253,8 @@ struct RoughInterface {
       // masking already holds 1 / (4 |wo.z| |wi.z|).
       out.f[j] =
           s.transmitted * transmitted[j] * facets.density(h) * 4 * masking * oh * jacobian * scale;
-      out.pdf[j] = choose(j, s).transmit * visible(facets, o, h) * oh * jacobian * eta * eta;
+      out.pdf[j] =
+          choose(j, s).transmit * visible(facets, o, shadow, h) * oh * jacobian * eta * eta;
     }
     return out;
   }

@@ -154,18 +154,18 @@ struct Beckmann : Alpha<R> {
   }
 };
 
-/// G2 / (4 |wo.z| |wi.z|).
+/// G2 / (4 |wo.z| |wi.z|); `shadow` is that of `wo`.
 template <class R, template <class> class Facets>
-inline R masking(const Facets<R>& facets, Vec3<R> wo, Vec3<R> wi) {
+inline R masking(const Facets<R>& facets, Vec3<R> wo, R shadow, Vec3<R> wi) {
   const R o = std::abs(wo.z), i = std::abs(wi.z);
-  const R s = o * i + i * facets.shadow(wo) + o * facets.shadow(wi);
+  const R s = o * i + i * shadow + o * facets.shadow(wi);
   return s > 0 ? R(0.25) / s : R(0);
 }
 
-/// Density of the visible normal `h` seen from `wo`, divided by |wo.h|.
+/// Density of the visible normal `h` seen from `wo`, divided by |wo.h|; `shadow` is that of `wo`.
 template <class R, template <class> class Facets>
-inline R visible(const Facets<R>& facets, Vec3<R> wo, Vec3<R> h) {
-  return facets.density(h) / (std::abs(wo.z) + facets.shadow(wo));
+inline R visible(const Facets<R>& facets, Vec3<R> wo, R shadow, Vec3<R> h) {
+  return facets.density(h) / (std::abs(wo.z) + shadow);
 }
 
 }  // namespace mms::materials

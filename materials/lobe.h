@@ -11,7 +11,10 @@
 /// and, when it is not a delta (contract of materials/bsdf.h, the model alone),
 ///   Lobes<R> evaluate(wo, wi, mode)     f and pdf
 ///   bool sample(wo, u_lobe, u1, u2, wi) draws for the hero
-/// or, when it is,
+/// or, where a part of that depends on wo alone and takes long,
+///   seen(wo)                            that part, a struct
+///   Lobes<R> evaluate(wo, wi, mode, seen), bool sample(wo, u_lobe, u1, u2, seen, wi)
+/// or, when it is a delta,
 ///   SpecularTerms<R> terms(wo)
 
 #include <algorithm>

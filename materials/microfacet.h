@@ -27,6 +27,14 @@ struct HalfVector {
   }
 };
 
+/// Facets that are mirrors along one direction: what is found once for all that it meets.
+template <class R>
+struct FacetsSeen {
+  R shadow = 0;              ///< |w.z| Lambda(w)
+  R loss = 0, mean = 0;      ///< to further bounces: along the direction, and over the hemisphere
+  Spectrum<R> further = {};  ///< F of these bounces together
+};
+
 /// Reflection by facets, alike for every wavelength but for Fresnel's factor.
 template <class R, template <class> class Distribution>
 struct RoughReflection {
@@ -49,33 +57,37 @@ struct RoughReflection {
     R multiple = 0;  ///< f / F_multiple of all further ones
     R pdf = 0;
     R cos_h = 0;  ///< at the facet of the single bounce
-    R mean = 0;   ///< mean loss
   };
 
-  Value evaluate(Vec3<R> wo, Vec3<R> wi) const {
+  /// All but `further`.
+  FacetsSeen<R> seen(Vec3<R> wo) const {
+    const FacetLoss<R> l = loss();
+    // No distribution loses less: where facets are all but flat, the spline may swing below it.
+    const R mean = std::max(l.mean(), R(0.02) * mean_unit(facets.ax * facets.ay));
+    const Vec3<R> up = to_upper(wo, wo);
+    return {facets.shadow(up), l.at(up), mean};
+  }
+
+  Value evaluate(Vec3<R> wo, Vec3<R> wi, const FacetsSeen<R>& seen) const {
     Value v;
     if (!same_side(wo, wi)) return v;
     wi = to_upper(wi, wo);
     wo = to_upper(wo, wo);
-    const FacetLoss<R> l = loss();
-    const R lo = l.at(wo);
-    // No distribution loses less: where facets are all but flat, the spline may swing below it.
-    v.mean = std::max(l.mean(), R(0.02) * mean_unit(facets.ax * facets.ay));
-    v.multiple = lo * l.at(wi) / (kPi<R> * v.mean);
-    v.pdf = lo * bounces().pdf(wi.z);
+    v.multiple = seen.loss * loss().at(wi) / (kPi<R> * seen.mean);
+    v.pdf = seen.loss * bounces().pdf(wi.z);
     const HalfVector<R> half(wo, wi);
     const Vec3<R> h = half.h;
     if (!(h.z > 0)) return v;
-    v.single = facets.density(h) * masking(facets, wo, wi);
-    v.pdf += (1 - lo) * visible(facets, wo, h) / 4;
+    v.single = facets.density(h) * masking(facets, wo, seen.shadow, wi);
+    v.pdf += (1 - seen.loss) * visible(facets, wo, seen.shadow, h) / 4;
     v.cos_h = half.cosine;
     return v;
   }
 
   /// Draws wi; false where a single bounce leaves the side of wo.
-  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, Vec3<R>& wi) const {
+  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const FacetsSeen<R>& seen, Vec3<R>& wi) const {
     const Vec3<R> up = to_upper(wo, wo);
-    if (u_lobe < loss().at(up)) {
+    if (u_lobe < seen.loss) {
       wi = bounces().sample(u1, u2);
     } else {
       const Vec3<R> h = facets.sample_visible(up, u1, u2);
@@ -108,17 +120,20 @@ struct FacetMirror {
   Spectrum<R> estimate(Vec3<R>) const { return colour; }
   SpecularTerms<R> terms(Vec3<R>) const { return mirror_terms(colour); }
 
-  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode) const {
-    const auto v = rough.evaluate(wo, wi);
-    Lobes<R> out{Spectrum<R>(), Spectrum<R>(v.pdf)};
+  FacetsSeen<R> seen(Vec3<R> wo) const {
+    FacetsSeen<R> s = rough.seen(wo);
     for (int j = 0; j < kWavelengths; ++j)  // a colour above 1 is not physical: no series for it
-      out.f[j] = colour[j] * v.single +
-                 (colour[j] <= 1 ? multiple_fresnel(colour[j], v.mean) : colour[j]) * v.multiple;
-    return out;
+      s.further[j] = colour[j] <= 1 ? multiple_fresnel(colour[j], s.mean) : colour[j];
+    return s;
   }
 
-  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, Vec3<R>& wi) const {
-    return rough.sample(wo, u_lobe, u1, u2, wi);
+  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode, const FacetsSeen<R>& seen) const {
+    const auto v = rough.evaluate(wo, wi, seen);
+    return {colour * v.single + seen.further * v.multiple, Spectrum<R>(v.pdf)};
+  }
+
+  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const FacetsSeen<R>& seen, Vec3<R>& wi) const {
+    return rough.sample(wo, u_lobe, u1, u2, seen, wi);
   }
 };
 
