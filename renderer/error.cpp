@@ -44,15 +44,23 @@ struct Sums {
 
 double mean(const BlockSums& s) { return double(s.y) / double(s.weight); }
 
-/// (A - B)^2 / 4 at one probe, of block `b` and all before it.
-double quarter_difference(const PartialFilm& film, int b, int x, int y) {
-  BlockSums before;
-  for (int i = 0; i < b; ++i) before += film.block(i, x, y);
-  const BlockSums last = film.block(b, x, y);
-  if (before.weight == 0 || last.weight == 0) return 0;
+double quarter_difference(const BlockSums& a, const BlockSums& b) {
+  if (a.weight == 0 || b.weight == 0) return 0;
   constexpr double kUnit = 0x1p40;  // of a value: sums are in 2^-64, weights in 2^-24
-  const double d = (mean(before) - mean(last)) / kUnit;
+  const double d = (mean(a) - mean(b)) / kUnit;
   return d * d / 4;
+}
+
+/// Adds what is told by the last whole block and the one before it at one probe.
+void add_differences(const PartialFilm& film, int x, int y, Sums& s) {
+  const int last = s.block();
+  if (last < 1) return;
+  BlockSums so_far = film.block(0, x, y);
+  for (int b = 1; b <= last; ++b) {
+    const BlockSums sums = film.block(b, x, y);
+    if (b >= last - 1) (b == last ? s.last : s.before) += quarter_difference(so_far, sums);
+    so_far += sums;
+  }
 }
 
 /// Patches of the edge `side`, row by row, `across` in a row.
@@ -74,8 +82,7 @@ std::vector<Sums> sums_of(const PartialFilm& film, int side, int across) {
       s.independent += film.parts[0].variance(p);
       s.samples += p.samples;
       ++s.probes;
-      if (s.block() >= 1) s.last += quarter_difference(film, s.block(), x, y);
-      if (s.block() >= 2) s.before += quarter_difference(film, s.block() - 1, x, y);
+      add_differences(film, x, y, s);
     }
   return all;
 }

@@ -309,13 +309,14 @@ Rendered Job::finish() {
   report_.mean_samples = double(all) / options_.width / options_.height;
   report_.error_reached = good_;
   report_.stopped = options_.stop && options_.stop->load() && paths_done_ < paths_asked_ && !good_;
-  report_.rmse = ErrorEstimate(*film_).rmse();
+  const ErrorEstimate error(*film_);
+  report_.rmse = error.rmse();
   for (const auto& [where, lanes] : faults_)
     report_.faults.push_back({place(world_.compiled.program(), where.source, where.line),
                               cause_text(where.cause), lanes});
   std::stable_sort(report_.faults.begin(), report_.faults.end(),
                    [](const FaultCount& a, const FaultCount& b) { return a.lanes > b.lanes; });
-  return {film_->develop(), std::move(report_), film_};
+  return {film_->develop(error), std::move(report_), film_};
 }
 
 }  // namespace mms::renderer

@@ -157,11 +157,13 @@ void PartialFilm::add(const PartialFilm& other) {
   }
 }
 
-Film PartialFilm::develop() const {
+Film PartialFilm::develop() const { return develop(ErrorEstimate(*this)); }
+
+Film PartialFilm::develop(const ErrorEstimate& error) const {
   Film film{width(), height(), {}, {}};
   for (int y = 0; y < height(); ++y)
     for (int x = 0; x < width(); ++x) parts[0].develop(pixel(x, y), film);
-  ErrorEstimate(*this).correct(film);
+  error.correct(film);
   weigh_borders(film);
   return film;
 }

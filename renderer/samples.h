@@ -12,6 +12,8 @@
 
 namespace mms::renderer {
 
+class ErrorEstimate;  // renderer/error.h
+
 /// A set of sample numbers, as ranges [first, second) in order that do not touch.
 class SampleSet {
  public:
@@ -60,6 +62,8 @@ struct PartialFilm {
   void add(const PartialFilm& other);
   /// The picture, with variances that know of the sequence (renderer/error.h).
   Film develop() const;
+  /// The same; `error` is of this film.
+  Film develop(const ErrorEstimate& error) const;
 
  private:
   template <class F>
