@@ -23,13 +23,14 @@
 namespace mms::bench {
 namespace {
 
-/// Scenes of both, as text: a built-in one, and one whose light is found more easily.
+/// Scenes of both, as text: a built-in one, and two whose light is found more easily.
 struct Stage {
   const char* name;
   std::string text;
 };
 std::vector<Stage> stages() {
-  return {{"sphere", std::string(*renderer::builtin_scene_text("sphere"))}, {"plain", R"({
+  return {{"sphere", std::string(*renderer::builtin_scene_text("sphere"))},
+          {"plain", R"({
   // A ball on the ground, one lamp above it, and a sky that is the same all over.
   "environment": {"constant": 0.5},
   "materials": {"ground": {"matte": 0.5}, "lamp": {"matte": 0, "emission": 8}},
@@ -38,6 +39,16 @@ std::vector<Stage> stages() {
     {"name": "ball", "sphere": {"radius": 1}, "test": true},
     {"quad": {"corner": [-10, -1, 10], "u": [20, 0, 0], "v": [0, 0, -20]}, "surface": "ground"},
     {"name": "lamp", "quad": {"corner": [-1, 4, -1], "u": [2, 0, 0], "v": [0, 0, 2]}, "surface": "lamp"}
+  ]
+})"},
+          {"sky", R"({
+  // The same ball on the same ground, with no light but the sky.
+  "environment": {"constant": 0.5},
+  "materials": {"ground": {"matte": 0.5}},
+  "camera": {"position": [0, 1.5, 6], "target": [0, 0, 0], "fov": 30},
+  "objects": [
+    {"name": "ball", "sphere": {"radius": 1}, "test": true},
+    {"quad": {"corner": [-10, -1, 10], "u": [20, 0, 0], "v": [0, 0, -20]}, "surface": "ground"}
   ]
 })"}};
 }
@@ -202,14 +213,14 @@ std::string peers() {
   constexpr const char* kSpectralPeer[] = {"18 s", "60 s", "193 s"};
   std::string text = fmt::format(R"(## The peers
 
-Ours beside Cycles of Blender, Debian's package, on scenes of both: `sphere`, and `plain`, a ball on the
-ground under one lamp and an even sky (`bench/peers.cpp`). One thread, at most {} scattering events, {}x{}
-pixels, box filter. Microseconds a sample, samples a pixel and the processor's seconds to a root mean square
-error of luminance of {} (1 is white), by what pictures of other seeds differ; times are medians of {} rounds
-in turn, the ratio with quartiles. Of ours all of a render counts, of Cycles what each sample after the first
-adds: neither building its scene nor what it writes. Cycles draws red, green and blue, its metal has one
-reflectance for all angles, its ball is of 32,768 triangles (`bench/cycles.py`). Brightness: mean luminance of
-ours over that of Cycles. The last column was measured earlier on an older processor, in a renderer for
+Ours beside Cycles of Blender, Debian's package, on scenes of both: `sphere`; `plain`, a ball on the ground
+under one lamp and an even sky; and `sky`, the same without the lamp (`bench/peers.cpp`). One thread, at most
+{} scattering events, {}x{} pixels, box filter. Microseconds a sample, samples a pixel and the processor's seconds
+to a root mean square error of luminance of {} (1 is white), by what pictures of other seeds differ; times are
+medians of {} rounds in turn, the ratio with quartiles. Of ours all of a render counts, of Cycles what each sample
+after the first adds: neither building its scene nor what it writes. Cycles draws red, green and blue, its metal
+has one reflectance for all angles, its ball is of 32,768 triangles (`bench/cycles.py`). Brightness: mean luminance
+of ours over that of Cycles. The last column was measured earlier on an older processor, in a renderer for
 research, on spheres of similar materials in similar light, not on these very scenes. Reproduce: `./run bench`
 (`bench_peers`, which starts `blender`).
 

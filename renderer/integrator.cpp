@@ -21,11 +21,9 @@ constexpr int kFirstRoulette = 3;
 constexpr int kDivisions = 3;
 
 /// Directions in which a path goes on from its first vertex: the ray that came there and the light
-/// that was drawn cost more than another direction.
-constexpr int kDirectionsOfFirst = 2;
-
-/// Branches of a path at one vertex: another direction, and one by images of lamps.
-constexpr std::size_t kMostBranches = kDirectionsOfFirst;
+/// that was drawn cost more than another direction. Where no light can be drawn all is found by
+/// these directions.
+constexpr int kDirectionsOfFirst = 2, kDirectionsUnlit = 4;
 
 /// Scattering events up to which each of few lights is drawn: more where the surface is not matte,
 /// and then in several directions, as those differ most where it mirrors a lamp about as wide as
@@ -35,8 +33,8 @@ constexpr int kDrawsOfUneven = 8;
 
 /// Paths are given up below this mean contribution only: in glass of index n radiance is 1 / n^2 of
 /// what it is again outside, so a path that carries a third may have lost nothing; and each of the
-/// directions from the first vertex carries its part.
-constexpr float kSafeContribution = 1.0f / (3 * kDirectionsOfFirst);
+/// directions from the first vertex carries its part of this.
+constexpr float kSafeContribution = 1.0f / 3;
 
 /// Rays that fly together, at least: enough to fill batches though scripts differ.
 constexpr std::size_t kTogether = 2048;
@@ -68,7 +66,9 @@ Integrator::Integrator(const World& world)
     : world_(world),
       scripts_(world.compiled),
       flights_(world, scripts_),
-      surroundings_(world, scripts_) {}
+      surroundings_(world, scripts_),
+      directions_of_first_(world.lights.any() || world.glows.any() ? kDirectionsOfFirst
+                                                                   : kDirectionsUnlit) {}
 
 void Integrator::trace(std::span<const PixelSample> samples, std::span<FilmSample> stream) {
   paths_.clear();
@@ -85,7 +85,8 @@ void Integrator::trace(std::span<const PixelSample> samples, std::span<FilmSampl
       start(samples[started], int(started), stream[started]);
     ask_balls(first);
     if (now_.empty()) break;
-    make_room(kMostBranches * now_.size());
+    // Branches of a path at one vertex: the other directions, and one by images of lamps.
+    make_room(std::size_t(directions_of_first_) * now_.size());
     flights_.fly(now_, views_, kLeftFlying);
     next_.clear();
     shadows_.clear();
@@ -297,7 +298,7 @@ void Integrator::scatter(const Vertex& v, Scatterer&& s) {
   const bool by_image = std::exchange(p.by_image, false);
   std::optional<LampImages> images;
   if (s.can_connect()) {
-    if (p.depth == 1 && !s.medium) s.directions = kDirectionsOfFirst;
+    if (p.depth == 1 && !s.medium) s.directions = directions_of_first_;
     const bool even = s.even();
     if (p.depth <= (even ? kEachLightOfEven : kEachLightOfUneven) && world_.each_light)
       draws = even || by_image ? 1 : kDrawsOfUneven / p.depth;
@@ -402,11 +403,11 @@ Flight* Integrator::leave(const Vertex& v, const Scatterer& s, const Sampled& sa
 
 /// Russian roulette by the mean contribution that the path still carries. It is the same whatever
 /// wavelength is the hero, so the spectral weights do not see it.
-bool Integrator::survives(Carried& c, int depth, float u) {
+bool Integrator::survives(Carried& c, int depth, float u) const {
   const float carried = c.beta.sum() / c.pdf.sum();
   if (!(carried > 0)) return false;
   if (depth < kFirstRoulette) return true;
-  const float q = std::min(1.0f, carried / kSafeContribution);
+  const float q = std::min(1.0f, carried * float(directions_of_first_) / kSafeContribution);
   if (u >= q) return false;
   c.beta *= 1 / q;
   return true;

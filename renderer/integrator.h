@@ -134,13 +134,14 @@ class Integrator {
   }
   void ask_emitters();
   void send_shadow_rays();
-  static bool survives(Carried& c, int depth, float u);
+  bool survives(Carried& c, int depth, float u) const;
   void add_emission(const Vertex& v, const Spectrumf& emitted);
 
   const World& world_;
   Scripts scripts_;
   Flights flights_;
   Surroundings surroundings_;
+  const int directions_of_first_;  ///< in which a path goes on from its first vertex
   std::vector<Path> paths_;
   std::vector<PathView> views_;
   std::vector<Flight> now_, next_, shadows_;
