@@ -66,6 +66,8 @@ Result<Rendered> render(const vm::Program& program, const Scene& scene,
   const Accel accel(data, collected);
   const Lights lights(data, findings->radiance);
   const bool each_light = plain && lights.count() <= kLightsDrawnEach;
+  const bool clustered = options.estimator == Estimator::Clustered;
+  const Matter matter = clustered ? matter_of(data, compiled) : Matter::Coloured;
   World world{
       data,
       compiled,
@@ -78,13 +80,14 @@ Result<Rendered> render(const vm::Program& program, const Scene& scene,
       plain,
       nested,
       each_light,
-      options.estimator == Estimator::Clustered ? matter_of(data, compiled) : Matter::Coloured,
+      matter,
       options.seed,
       options.max_depth,
       std::move(findings->majorants),
       std::move(findings->emission_rates),
       Glows(std::move(findings->glows)),
-      options.estimator,
+      // Grey matter has the same densities for all wavelengths: none are to be weighed.
+      matter == Matter::Grey ? Estimator::Unweighted : options.estimator,
       options.generator,
       !nested && lights.any() ? polished_balls(data, compiled, plain) : std::vector<PolishedBall>(),
       each_light && lights.any() ? glossy_balls(data, compiled) : std::vector<GlossyBall>()};
