@@ -198,6 +198,7 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
   choice.any = false;
   if (node_count() == 0 || in_surface(wo)) return;
   auto& probability = choice.probability.of;
+  // Of a node's model; what that has seen along `wo` is remembered.
   const auto estimate = [&](int i) {
     return with_model(i, Spectrum<R>(), [&](const auto& model) {
       if (!detail::is_specular(model)) detail::see<R>(model, wo, i, choice);

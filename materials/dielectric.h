@@ -95,21 +95,18 @@ struct RoughInterface {
   InterfaceSeen<R> seen(Vec3<R> wo) const {
     InterfaceSeen<R> s;
     s.shadow = facets.shadow(wo);
+    R lost = 0, transmit = 0, mean_here = 0, mean_there = 0;
     for (int j = 0; j < kWavelengths; ++j) {
-      const int same = j - repeated(j);
-      if (same == j) {
+      if (!repeated(j)) {
         const R eta = rough_eta(j, wo);
         const InterfaceLoss<R> here = loss(eta);
-        s.lost[j] = here.at(wo);
-        s.mean_here[j] = here.mean();
-        s.mean_there[j] = loss(1 / eta).mean();
-        s.transmit[j] = transmitted_share(s.mean_here[j], s.mean_there[j], eta);
-      } else {
-        s.lost[j] = s.lost[same];
-        s.mean_here[j] = s.mean_here[same];
-        s.mean_there[j] = s.mean_there[same];
-        s.transmit[j] = s.transmit[same];
+        lost = here.at(wo);
+        mean_here = here.mean();
+        mean_there = loss(1 / eta).mean();
+        transmit = transmitted_share(mean_here, mean_there, eta);
       }
+      s.lost[j] = lost, s.transmit[j] = transmit;
+      s.mean_here[j] = mean_here, s.mean_there[j] = mean_there;
     }
     return s;
   }

@@ -44,6 +44,7 @@ struct Sums {
 
 double mean(const BlockSums& s) { return double(s.y) / double(s.weight); }
 
+/// (A - B)^2 / 4.
 double quarter_difference(const BlockSums& a, const BlockSums& b) {
   if (a.weight == 0 || b.weight == 0) return 0;
   constexpr double kUnit = 0x1p40;  // of a value: sums are in 2^-64, weights in 2^-24
