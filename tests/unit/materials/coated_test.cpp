@@ -10,6 +10,7 @@
 
 #include "tests/unit/materials/albedo.h"
 #include "tests/unit/materials/cases.h"
+#include "tests/unit/materials/walter.h"
 
 using namespace mms;
 using namespace mms::test;
@@ -87,12 +88,13 @@ TEST_CASE("a lossless lobe under a rough lossless coat keeps its energy") {
     std::string name;
     Material (*make)(double place);
     double bound = 1e-4;
+    int panels = 8;
   };
   const Kind bases[] = {
       {"microfacet", [](double x) { return microfacet(1, 0.1 + 0.9 * x); }},
       {"beckmann", [](double x) { return beckmann(1, 0.1 + 0.9 * x); }},
       {"glossy", [](double x) { return glossy(1, std::expm1(7 * x)); }},
-      {"rough_matte", [](double x) { return tinted(Lobe::RoughMatte, 1, {x}); }, 2e-4},
+      {"rough_matte", [](double x) { return tinted(Lobe::RoughMatte, 1, {x}); }, 1e-4, 16},
       {"matte", [](double) { return matte(1); }}};
   constexpr int kCases = kSanitized ? 2 : 40;
   for (const Kind& base : bases)
@@ -103,7 +105,7 @@ TEST_CASE("a lossless lobe under a rough lossless coat keeps its energy") {
         const double ior = 1.02 * std::pow(4 / 1.02, place(0.5497));
         const double degrees = kAngles[k % std::size(kAngles)];
         const Material m = coat(top.make(place(0.6710)), base.make(place(0.8192)), 0, 0, ior);
-        a.add(albedo(m, degrees, 0, 8));
+        a.add(albedo(m, degrees, 0, base.panels));
       }
       CHECK_MESSAGE(a.least > 1 - base.bound, base.name, " under ", top.name);
       CHECK_MESSAGE(a.most < 1 + base.bound, base.name, " under ", top.name);
@@ -129,14 +131,14 @@ TEST_CASE("a matte under a stretched coat keeps its energy") {
         range.add(albedo(coat(top, matte(1), 0, 0, ior), kAngles[k % std::size(kAngles)],
                          kPi<double> / 2 * place(0.4503), 14));
       }
-      CHECK_MESSAGE(range.least > 1 - 3e-4, row.name, " ", anisotropy);
-      CHECK_MESSAGE(range.most < 1 + 3e-4, row.name, " ", anisotropy);
+      CHECK_MESSAGE(range.least > 1 - 5e-4, row.name, " ", anisotropy);
+      CHECK_MESSAGE(range.most < 1 + 5e-4, row.name, " ", anisotropy);
       MESSAGE("matte under ", row.name, " of anisotropy ", anisotropy, ": albedo from ",
               range.least, " to ", range.most);
     }
 }
 
-TEST_CASE("a matte under a coat of several lobes keeps its energy, and others lose little") {
+TEST_CASE("lossless lobes under a coat of several lobes keep their energy") {
   struct Row {
     std::string name;
     Material (*make)(double x, double y);
@@ -150,6 +152,11 @@ TEST_CASE("a matte under a coat of several lobes keeps its energy, and others lo
          return mix(microfacet(1, roughness(x)), microfacet(1, roughness(y)), 0.4);
        },
        0, 1 - 1e-4},
+      {"facets and a lobe that sends back",
+       [](double x, double y) {
+         return mix(microfacet(1, roughness(x)), tinted(Lobe::GlossyBack, 1, {20 * y, 3}), 0.4);
+       },
+       0, 1 - 1e-4},
       {"a mirror and glossy",
        [](double x, double) { return mix(mirror(1), glossy(1, 1000 * x * x), 0.3); }, 0.7,
        1 - 1e-4},
@@ -159,7 +166,7 @@ TEST_CASE("a matte under a coat of several lobes keeps its energy, and others lo
                     add(scale(glossy(1, 1000 * y * y), 0.3),
                         scale(microfacet(1, roughness(y), 0.6), 0.5)));
        },
-       0, 0.95}};
+       0, 1 - 5e-4}};
   for (const Row& row : rows) {
     Range matte_below, facets_below;
     for (int k = 1; k <= (kSanitized ? 2 : 20); ++k) {
@@ -179,7 +186,7 @@ TEST_CASE("a matte under a coat of several lobes keeps its energy, and others lo
     CHECK_MESSAGE(matte_below.least > 1 - 3e-4, row.name);
     CHECK_MESSAGE(matte_below.most < 1 + 3e-4, row.name);
     CHECK_MESSAGE(facets_below.least > row.facets_keep, row.name);
-    CHECK_MESSAGE(facets_below.most < 1 + 3e-4, row.name);
+    CHECK_MESSAGE(facets_below.most < 2 - row.facets_keep, row.name);
     MESSAGE("under ", row.name, ": matte from ", matte_below.least, " to ", matte_below.most,
             ", facets from ", facets_below.least, " to ", facets_below.most);
   }
@@ -200,6 +207,7 @@ TEST_CASE("lossless lobes under two lossless coats keep their energy") {
                         lobes[3]};
   constexpr int kCases = kSanitized ? 1 : 6;
   for (const Kind& base : bases) {
+    const int panels = base.name == "rough_matte" ? 16 : 8;  // it is not smooth
     Range a;
     int k = 0;
     for (const Kind& above : lobes)
@@ -216,12 +224,12 @@ TEST_CASE("lossless lobes under two lossless coats keep their energy") {
           // Deltas by hand: what the mirror above reflects, and the one below of what reaches it.
           double sum = albedo(
               under(fresnel_mix(base.make(place(0.3019)), below.make(place(0.8192)), ior_below)),
-              degrees, 0, 8);
+              degrees, 0, panels);
           const bool mirror_above = &above == lobes, mirror_below = &below == lobes;
           const double f = materials::fresnel_dielectric(z, ior_above);
           if (mirror_above) sum += f;
           if (mirror_below)
-            sum += (1 - (mirror_above ? f : albedo(under(matte(0)), degrees, 0, 8))) *
+            sum += (1 - (mirror_above ? f : albedo(under(matte(0)), degrees, 0, panels))) *
                    materials::fresnel_dielectric(z, ior_below);
           a.add(sum);
         }
@@ -231,23 +239,110 @@ TEST_CASE("lossless lobes under two lossless coats keep their energy") {
   }
 }
 
-TEST_CASE("plastic under coats of other kinds loses little, and never gains") {
-  Range a;
-  for (int k = 1; k <= (kSanitized ? 4 : 40); ++k) {
-    const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
-    const auto ior = [&](double step) { return 1.02 * std::pow(2.5 / 1.02, place(step)); };
-    const double x = 0.2 + 0.8 * place(0.6710), y = 0.2 + 0.8 * place(0.8192);
-    const Material both = mix(microfacet(1, x), microfacet(1, y), 0.4);
-    const Material coats[] = {microfacet(1, x, 0.5), both};
-    const bool stretched = k % 2;  // above; if not, there are several lobes below
-    const Material plastic =
-        fresnel_mix(matte(1), stretched ? microfacet(1, y) : both, ior(0.5497));
-    a.add(albedo(coat(coats[stretched ? 0 : 1], plastic, 0, 0, ior(0.4503)),
-                 kAngles[k % std::size(kAngles)], 0.3, 12));
+TEST_CASE("plastic under coats of several lobes, of stretched ones, and under two") {
+  struct Row {
+    std::string name;
+    Material (*make)(double x, double y, double ior_above, double ior_below);
+    double least, most;
+  };
+  static constexpr auto both = [](double x, double y) {
+    return mix(microfacet(1, x), microfacet(1, y), 0.4);
+  };
+  const Row rows[] = {
+      {"stretched above",
+       [](double x, double y, double a, double b) {
+         return coat(microfacet(1, x, 0.5), fresnel_mix(matte(1), microfacet(1, y), b), 0, 0, a);
+       },
+       1 - 5e-4, 1 + 5e-4},
+      {"several lobes above and below",
+       [](double x, double y, double a, double b) {
+         return coat(both(x, y), fresnel_mix(microfacet(1, y), both(y, x), b), 0, 0, a);
+       },
+       1 - 2e-4, 1 + 2e-4},
+      {"three coats",
+       [](double x, double y, double a, double b) {
+         return coat(
+             glossy(1, 30 * x),
+             coat(microfacet(1, y), fresnel_mix(microfacet(1, x), microfacet(1, y), b), 0, 0, a), 0,
+             0, 1.3);
+       },
+       1 - 2e-4, 1 + 2e-4},
+      {"stretched below",  // loses, and never gains
+       [](double x, double y, double a, double b) {
+         return coat(microfacet(1, x), fresnel_mix(matte(1), microfacet(1, y, 0.5), b), 0, 0, a);
+       },
+       0.985, 1 + 1e-4}};
+  for (const Row& row : rows) {
+    Range a;
+    for (int k = 1; k <= (kSanitized ? 2 : 20); ++k) {
+      const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
+      const auto ior = [&](double step) { return 1.02 * std::pow(2.5 / 1.02, place(step)); };
+      a.add(albedo(
+          row.make(0.2 + 0.8 * place(0.6710), 0.2 + 0.8 * place(0.8192), ior(0.4503), ior(0.5497)),
+          kAngles[k % std::size(kAngles)], 0.3, 12));
+    }
+    CHECK_MESSAGE(a.least > row.least, row.name);
+    CHECK_MESSAGE(a.most < row.most, row.name);
+    MESSAGE(row.name, ": albedo from ", a.least, " to ", a.most);
   }
-  CHECK(a.least > 0.98);
-  CHECK(a.most < 1 + 1e-4);
-  MESSAGE("albedo from ", a.least, " to ", a.most);
+}
+
+TEST_CASE("stretched facets, rough coats of them, and both keep their energy") {
+  using Make = Material (*)(double roughness, double anisotropy);
+  const struct {
+    std::string name;
+    Make make;
+  } kinds[] = {{"microfacet", [](double r, double a) { return microfacet(1, r, a); }},
+               {"beckmann", [](double r, double a) { return scale(beckmann(1, r, a), 1); }}};
+  for (const auto& top : kinds)
+    for (const auto& base : kinds)
+      for (const double anisotropy : {0.4, 0.9}) {
+        if (kSanitized && anisotropy > 0.8) continue;  // too few panels
+        Range range;
+        for (int k = 1; k <= (kSanitized ? 2 : 24); ++k) {
+          const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
+          const double ior = 1.05 * std::pow(3.5 / 1.05, place(0.5497));
+          const double which = k % 3;  // 0: the coat alone is round; 1: the base alone; 2: crossed
+          const double above = which == 0 ? 0 : -anisotropy, below = which == 1 ? 0 : anisotropy;
+          range.add(albedo(coat(top.make(0.3 + 0.7 * place(0.6710), above),
+                                base.make(0.3 + 0.7 * place(0.8192), below), 0, 0, ior),
+                           kAngles[k % std::size(kAngles)], kPi<double> / 2 * place(0.4503),
+                           anisotropy > 0.8 ? 18 : 14));
+        }
+        CHECK_MESSAGE(range.least > 1 - 5e-4, base.name, " under ", top.name);
+        CHECK_MESSAGE(range.most < 1 + 5e-4, base.name, " under ", top.name);
+        MESSAGE(base.name, " under ", top.name, " of anisotropy ", anisotropy, ": albedo from ",
+                range.least, " to ", range.most);
+      }
+}
+
+// Of its first bounce: the mean of Fresnel's reflectance over the facets that are seen.
+TEST_CASE("a coat of facets reflects about what an interface of these does") {
+  double worst = 0, worst_grazing = 0;
+  for (const double ior : {1.1, 1.5, 2.5})
+    for (const double roughness : {0.3, 0.5, 0.7, 1.0})
+      for (const double degrees : {0.0, 45.0, 60.0, 75.0, 85.0, 89.0}) {
+        const double alpha = roughness * roughness;
+        const Vec3d wo = direction(degrees, 0);
+        double interface = 0;
+        constexpr int kFacets = 200;
+        for (int i = 0; i < kFacets; ++i)
+          for (int k = 0; k < kFacets; ++k) {
+            double weight = 0;
+            const Vec3d h =
+                GgxFacets{alpha, alpha}.seen(wo, (i + 0.5) / kFacets, (k + 0.5) / kFacets, weight);
+            interface += weight * textbook_fresnel(dot(wo, h), ior) / (kFacets * kFacets);
+          }
+        const double coat_alone =
+            albedo(coat(microfacet(1, roughness), matte(0), 0, 0, ior), degrees, 0, 8);
+        const double off = std::abs(coat_alone - interface);
+        CHECK(off < std::max(std::abs(textbook_fresnel(wo.z, ior) - interface), 0.03));
+        double& most = degrees > 85 ? worst_grazing : worst;
+        most = std::max(most, off);
+      }
+  CHECK(worst < 0.08);
+  CHECK(worst_grazing < 0.31);
+  MESSAGE("off by ", worst, " up to 85 degrees, ", worst_grazing, " at 89");
 }
 
 TEST_CASE("a coat of index 1 is not there") {
