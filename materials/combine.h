@@ -24,7 +24,7 @@
 ///                               2001, where the coat is polished)
 /// so that a lossless base under a lossless coat is 1 in every direction: round facets, `glossy`
 /// and both mattes under and in any such coat within 1e-4; stretched facets, under it or in it,
-/// within 5e-4, beyond anisotropy 0.9 2e-3. All other lobes get
+/// within 5e-4 but for what materials/coated.h says. All other lobes get
 ///   base: min(T, T')
 /// which never gains, as it is below T. All of these are symmetric. A specular coat over a Lambert
 /// base is 1 exactly; but near grazing a broad coat of which no more is known loses much: min(F,
@@ -202,9 +202,11 @@ inline Spectrum<R> delta_weight(const Spectrum<R>& other, const PerNode<CoatAbov
 
 /// Whether at wavelength j the coats above a known lobe count together, and G is known below them.
 template <class R>
-inline bool counts_together(const CoatAbove<R>& above, bool solved, int j) {
-  if (above.part_of >= 0) return solved && above.ior && above.numbers.eta[j] > 1;
-  return above.numbers.eta[j] > 1 && (!above.nested[j] || solved);
+inline bool counts_together(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
+                            bool solved, int j) {
+  if (!(above.ior && above.numbers.eta[j] > 1)) return false;
+  if (above.part_of >= 0) return solved && coats.of[above.part_of].numbers.eta[j] > 1;
+  return solved || !above.nested[j];
 }
 
 /// g of materials/coated.h along a direction of |cosine| `z`, of a lobe that is known below a coat
@@ -223,7 +225,7 @@ inline Spectrum<R> coated_scaling(const PerNode<CoatAbove<R>>& coats, const Coat
   bool alone = false;  // the coat was all that matters, at the wavelength before
   for (int j = 0; j < kWavelengths; ++j) {
     const R eta = coat.eta[j], t = through[j];
-    const bool together = counts_together(above, under, j);
+    const bool together = counts_together(coats, above, under, j);
     const bool several = part ? together : above.nested[j];
     const bool known = part ? eta > 1 : together;
     if (known && !several && alone && coat.repeated(j)) {
@@ -249,7 +251,7 @@ inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const PerNode<CoatAbove
   const Spectrum<R> g_i = coated_scaling(coats, above, under, lobe_i, cos_i, w.through_i);
   Spectrum<R> f;
   for (int j = 0; j < kWavelengths; ++j)
-    f[j] = (counts_together(above, under, j) ? w.bare[j] : w.other[j]) * (g_o[j] * g_i[j]);
+    f[j] = (counts_together(coats, above, under, j) ? w.bare[j] : w.other[j]) * (g_o[j] * g_i[j]);
   return f;
 }
 

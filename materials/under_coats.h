@@ -60,8 +60,8 @@ struct Coats {
   static constexpr int kMost = 6;
   std::array<CoatNumbers<R>, kMost> of;
   int count = 0;
-  bool reflects =
-      false;  ///< the first is the coat that the lobe is a part of, and its s the lobe's
+  /// The first is the coat that the lobe is a part of, and its s the lobe's.
+  bool reflects = false;
 
   void add(const CoatNumbers<R>& coat) { of[count++] = coat; }
   bool operator==(const Coats& b) const {
@@ -73,15 +73,14 @@ struct Coats {
     return std::all_of(of.begin(), of.begin() + count,
                        [j](const CoatNumbers<R>& c) { return c.repeated(j); });
   }
-  /// Whether all indices are above 1.
-  bool known(int j) const {
-    return std::all_of(of.begin(), of.begin() + count,
-                       [j](const CoatNumbers<R>& c) { return c.eta[j] > 1; });
-  }
-  /// What the lobe is to reflect along a direction of |cosine| `z`: T, or T E.
+  /// Whether there is something to solve for.
+  bool known(int j) const { return of[0].eta[j] > 1; }
+  /// What the lobe is to reflect along a direction of |cosine| `z`: T, of all coats up to one whose
+  /// index is not above 1, or T E.
   R through(int j, R z) const {
     R t = 1;
-    for (int k = reflects; k < count; ++k) t *= of[k].split(j, z, of[k].broad[j]).transmitted;
+    for (int k = reflects; k < count && of[k].eta[j] > 1; ++k)
+      t *= of[k].split(j, z, of[k].broad[j]).transmitted;
     return t;
   }
   R reflected(int j, R z) const {
@@ -156,7 +155,7 @@ class UnderCoats {
   using Values = typename SpreadMatrix<R>::Values;
 
  public:
-  /// For the wavelengths of which all indices are above 1.
+  /// For the wavelengths at which the nearest index is above 1.
   void solve(const CoatedLobe<R>& lobe, const Coats<R>& coats) {
     lobe_ = lobe;
     coats_ = coats;
