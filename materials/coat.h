@@ -7,11 +7,11 @@
 ///
 ///   E = (1 - s) F + s m      and lets T = 1 - E through,
 ///
-/// much as rough interfaces do, whose facets meet light at many angles: s is 0 for a mirror, and
-/// for facets 1 - exp(-4 alpha), alpha the geometric mean of both (fitted to the share that
-/// interfaces of GGX reflect at their first bounce, for indices from 1.1 to 2.5); `glossy` counts
-/// as the facets that are as wide. Of several lobes, s is the mean by their weights. The mean of E
-/// is m whatever s is.
+/// as rough interfaces do, whose facets meet light at many angles: s is 0 for a mirror, and for
+/// facets alpha^1.4, alpha the geometric mean of both, so that highlights near the normal are as
+/// bright as F times the facets there (fitted for indices from 1.5; towards grazing such interfaces
+/// reflect less than E). `glossy` counts as the facets that are as wide. Of several lobes, s is the
+/// mean by their weights. The mean of E is m whatever s is.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ namespace mms::materials {
 /// s of facets, from the geometric mean of both alphas.
 template <class R>
 inline R broadness(R alpha) {
-  return -std::expm1(-4 * alpha);
+  return std::min(std::pow(alpha, R(1.4)), R(1));
 }
 /// s of `glossy`.
 template <class R>

@@ -13,6 +13,8 @@
 #include "base/quadrature.h"
 #include "materials/coat.h"
 #include "materials/coated.h"
+#include "materials/conductor.h"
+#include "materials/film.h"
 #include "materials/fresnel.h"
 #include "materials/glass_coat.h"
 #include "materials/glossy.h"
@@ -129,6 +131,11 @@ inline void for_each_part(const Layout& layout, const R* params, int node,
     for_each_part(layout, params, n.children[c], weights, visit);
 }
 
+/// Whether the lobe's colour is not its first numbers, but what its facets reflect.
+inline bool is_metal(Lobe lobe) {
+  return lobe == Lobe::Conductor || lobe == Lobe::ColouredMetal || lobe == Lobe::FilmConductor;
+}
+
 /// s of a node's lobe, if it is one whose spread is known; of a mirror 0.
 template <class R>
 inline std::optional<R> lobe_broadness(const Layout::Node& node, const R* p) {
@@ -138,6 +145,12 @@ inline std::optional<R> lobe_broadness(const Layout::Node& node, const R* p) {
   switch (node.lobe) {
     case Lobe::Mirror:
       return R(0);
+    case Lobe::Conductor:
+      return of(Conductor<R>(p));
+    case Lobe::ColouredMetal:
+      return of(ColouredMetal<R>(p));
+    case Lobe::FilmConductor:
+      return of(FilmConductor<R>(p));
     case Lobe::Glossy:
       return of(Glossy<R>(p));
     case Lobe::GlossyProduct:
@@ -153,8 +166,8 @@ inline std::optional<R> lobe_broadness(const Layout::Node& node, const R* p) {
   }
 }
 
-/// Calls `visit(broadness, weight)` for what a coat, the child `node`, is a sum of, the colours
-/// being in the weights; whether all of it is known. `weights` holds that of `node`.
+/// Calls `visit(broadness, weight)` for what a coat, the child `node`, is a sum of, the colours of
+/// all but metals being in the weights; whether all of it is known. `weights` holds that of `node`.
 template <class R, class Visit>
 inline bool for_each_coat_lobe(const Layout& layout, const R* params, int node,
                                PerNode<Spectrum<R>>& weights, Visit visit) {
@@ -167,8 +180,9 @@ inline bool for_each_coat_lobe(const Layout& layout, const R* params, int node,
   }
   const auto broad = lobe_broadness(n, p);
   if (broad)
-    visit(*broad, Spectrum<R>::map([](R x) { return limited(x, R(0), R(1e18)); },
-                                   weights.of[node] * weight_at(p)));
+    visit(*broad, Spectrum<R>::map(
+                      [](R x) { return limited(x, R(0), R(1e18)); },
+                      weights.of[node] * (is_metal(n.lobe) ? Spectrum<R>(R(1)) : weight_at(p))));
   return broad.has_value();
 }
 

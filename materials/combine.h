@@ -11,8 +11,9 @@
 /// directions: exp(-absorption thickness (1 / c + 1 / c')) on `base`, where c^2 = 1 - (1 -
 /// |wo.z|^2) / ior^2, c' alike for wi.
 ///
-/// Where the index is above 1, and the coat made of `glossy`, `microfacet`, `beckmann` and mirrors,
-/// one of them or what `mix`, `scale` and `add` make of several, each of its lobes gets
+/// Where the index is above 1, and the coat made of `glossy`, `glossy_product`, `glossy_back`,
+/// `microfacet`, `beckmann`, metals and mirrors, one of them or what `mix`, `scale` and `add` make
+/// of several, each of its lobes gets
 ///   coat: h(wo) h(wi)           (materials/coated.h), for its own E; for a delta E itself
 /// so that a white coat reflects E exactly. Of other lobes it is
 ///   coat: min(F, F')            and s is 0: E = F
