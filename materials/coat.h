@@ -22,10 +22,10 @@
 
 namespace mms::materials {
 
-/// s of facets, from the geometric mean of both alphas.
+/// s of facets, from the geometric mean of both alphas; below 1, so that E is above 0.
 template <class R>
 inline R broadness(R alpha) {
-  return std::min(std::pow(alpha, R(1.4)), R(1));
+  return std::min(std::pow(alpha, R(1.4)), R(0.98));
 }
 /// s of `glossy`.
 template <class R>
