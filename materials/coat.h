@@ -8,10 +8,10 @@
 ///   E = (1 - s) F + s m      and lets T = 1 - E through,
 ///
 /// as rough interfaces do, whose facets meet light at many angles: s is 0 for a mirror, and for
-/// facets alpha^1.4, alpha the geometric mean of both, so that highlights near the normal are as
-/// bright as F times the facets there (fitted for indices from 1.5; towards grazing such interfaces
-/// reflect less than E). `glossy` counts as the facets that are as wide. Of several lobes, s is the
-/// mean by their weights. The mean of E is m whatever s is.
+/// facets 0.98 alpha^1.4, alpha the geometric mean of both, so that highlights near the normal are
+/// as bright as F times the facets there (fitted for indices from 1.5; towards grazing such
+/// interfaces reflect less than E). `glossy` counts as the facets that are as wide. Of several
+/// lobes, s is the mean by their weights. The mean of E is m whatever s is.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ namespace mms::materials {
 /// s of facets, from the geometric mean of both alphas; below 1, so that E is above 0.
 template <class R>
 inline R broadness(R alpha) {
-  return std::min(std::pow(alpha, R(1.4)), R(0.98));
+  return R(0.98) * std::pow(alpha, R(1.4));
 }
 /// s of `glossy`.
 template <class R>

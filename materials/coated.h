@@ -19,8 +19,8 @@
 /// stretched facets have above round ones as wide along the direction is in further tables, as
 /// polynomials over the shape that they have along it (materials/tables/stretched_coats.cpp). The
 /// energy of coat and base is 1 within 1e-4; of stretched facets, under a coat or as one, for
-/// indices from 1.2 to 4, within 5e-4, beyond anisotropy 0.9 1.5e-3, and as a coat of index 1.02
-/// within 4e-3 next to grazing. Below several coats G is solved for (materials/under_coats.h).
+/// indices from 1.2 to 4, within 5e-4, beyond anisotropy 0.9 1.5e-3; as a coat next to grazing
+/// 2e-3, and more towards index 1. Below several coats G is solved for (materials/under_coats.h).
 
 #include <algorithm>
 #include <array>
