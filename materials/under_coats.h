@@ -124,7 +124,7 @@ inline constexpr R kScalingPowers[] = {1 / (R(1.5) + std::numbers::sqrt2_v<R> / 
 
 /// G of materials/coated.h for a lobe that is to reflect `share`, by powers of what is still wrong
 /// (Knight, Ruiz and Ucar 2014), of first order. Four steps leave less than 1e-4 where T is to be
-/// reflected, six of E.
+/// reflected, twelve of E.
 template <class R>
 inline typename SpreadMatrix<R>::Values scaled(const SpreadMatrix<R>& matrix,
                                                const typename SpreadMatrix<R>::Values& share,
@@ -175,7 +175,7 @@ class UnderCoats {
       Values& above = above_[at_[j]];
       for (int k = 0; k < axes::kSpread; ++k) above[k] = below[k] * below[k] - through[k];
       if (!coats.reflects) continue;
-      const Values part = scaled(matrix, reflected, 6);
+      const Values part = scaled(matrix, reflected, 12);
       Values& quotient = quotient_[at_[j]];
       for (int k = 0; k < axes::kSpread; ++k)
         quotient[k] =
