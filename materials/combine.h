@@ -24,8 +24,8 @@
 ///   base: T T' / mean T         whose integral over wi is exactly T (Kelemen and Szirmay-Kalos
 ///                               2001, where the coat is polished)
 /// so that a lossless base under a lossless coat is 1 in every direction: round facets, `glossy`
-/// and both mattes under and in any such coat within 1e-4; stretched facets, under it or in it,
-/// within 5e-4 but for what materials/coated.h says. All other lobes get
+/// and both mattes under any such coat within 3e-4, of `glossy` 1e-3; stretched facets in it within
+/// 3e-3, under it 5e-4. All other lobes get
 ///   base: min(T, T')
 /// which never gains, as it is below T. All of these are symmetric. A specular coat over a Lambert
 /// base is 1 exactly; but near grazing a broad coat of which no more is known loses much: min(F,
@@ -33,7 +33,7 @@
 ///
 /// Where a coat lies right under another, as plastic under varnish, and so on, T is the product of
 /// all coats above, and a lobe of a coat below others gets E of its coat times their T: g and h are
-/// then solved for (materials/under_coats.h), within 1e-4 of lobes that are not stretched.
+/// then solved for (materials/under_coats.h), within 2e-3 of lobes that are not stretched.
 /// Stretched ones get min(T, T') of each coat. A coat whose index is 1 at every wavelength is not
 /// there.
 ///
