@@ -10,27 +10,26 @@
 #include <bitset>
 #include <optional>
 
-#include "base/quadrature.h"
-#include "materials/coat.h"
 #include "materials/coated.h"
-#include "materials/conductor.h"
-#include "materials/film.h"
 #include "materials/fresnel.h"
 #include "materials/glass_coat.h"
-#include "materials/glossy.h"
 #include "materials/layout.h"
 #include "materials/lobe.h"
 #include "materials/microfacet.h"
-#include "materials/under_coats.h"
+#include "materials/rough_coat.h"
+#include "materials/two_coats.h"
 
 namespace mms::materials {
 
-/// What is known of a coat's own lobes.
+/// What is known of a coat's own lobes. Of a mirror, and of what is not, all is as if polished.
 template <class R>
 struct CoatKind {
-  bool known = false;     ///< how each spreads light, and one is no mirror
-  bool polished = false;  ///< all are mirrors
-  Spectrum<R> broad{};    ///< s of materials/coat.h; of what is not known, 0
+  CoatLobe<R> lobe{};  ///< where there is one
+  int mixture = -1;    ///< where there are several, the node that they are the children of
+  bool round = false;  ///< known, and not stretched; of several, also the same at each wavelength
+  bool polished = false;  ///< nothing but mirrors
+
+  bool known() const { return lobe.known() || mixture >= 0; }
 };
 
 /// The coat right above a node, where light is seen along one direction.
@@ -38,21 +37,18 @@ template <class R>
 struct CoatAbove {
   const R* ior = nullptr;  ///< its indices; null: there is none
   CoatKind<R> kind{};
-  CoatNumbers<R> numbers{};
+  bool nested = false;       ///< there is a second coat right above that one
+  int lower = -1;            ///< then the node of which materials/two_coats.h knows it
   int base = -1;             ///< the node right below it
-  int upper = -1;            ///< that of a coat right above this one, if there is one
-  int depth = 0;             ///< of coats, with those above
-  int part_of = -1;          ///< that of the coat of whose known lobes this node is one, or some
   const R* layer = nullptr;  ///< the numbers of its `coat`, if it is one
   bool passed_once = false;  ///< by what changes sides at this lobe (materials/glass_coat.h)
   bool over_glass = false;   ///< such lobes are all or a part of what lies below
   CoatAlong<R> o{};
-  Spectrum<R> through_o{};  ///< what is left of light by all coats that count together
-  Spectrum<R> mean{};       ///< of that over the hemisphere
-  Spectrum<R> mirrored{};   ///< over glass: what the coat reflects
+  Spectrum<R> left_o{}, through_o{};  ///< what is left of light by this coat, and by all that count
+  Spectrum<R> mirrored{};             ///< over glass: what the coat reflects
 
-  /// Whether at wavelength j it counts together with those above.
-  std::array<bool, kWavelengths> nested{};
+  /// Whether all that lies above is known to a lobe that is not stretched.
+  bool solvable() const { return nested ? lower >= 0 : kind.round || !kind.known(); }
 };
 
 /// One entry for each node of a layout; entries beyond it are not initialised.
@@ -131,43 +127,30 @@ inline void for_each_part(const Layout& layout, const R* params, int node,
     for_each_part(layout, params, n.children[c], weights, visit);
 }
 
-/// Whether the lobe's colour is not its first numbers, but what its facets reflect.
-inline bool is_metal(Lobe lobe) {
-  return lobe == Lobe::Conductor || lobe == Lobe::ColouredMetal || lobe == Lobe::FilmConductor;
-}
-
-/// s of a node's lobe, if it is one whose spread is known; of a mirror 0.
+/// The lobe of a node if it is one whose spread is known; a mirror has no tables.
 template <class R>
-inline std::optional<R> lobe_broadness(const Layout::Node& node, const R* p) {
-  const auto of = [](const auto& model) -> R {
-    return model.specular() ? R(0) : model.coated({0, 0, 1}).broad;
+inline std::optional<CoatLobe<R>> coat_lobe(const Layout::Node& node, const R* p) {
+  const auto facets = [](const auto& model) {
+    return model.specular() ? CoatLobe<R>() : model.rough.coat();
   };
   switch (node.lobe) {
     case Lobe::Mirror:
-      return R(0);
-    case Lobe::Conductor:
-      return of(Conductor<R>(p));
-    case Lobe::ColouredMetal:
-      return of(ColouredMetal<R>(p));
-    case Lobe::FilmConductor:
-      return of(FilmConductor<R>(p));
-    case Lobe::Glossy:
-      return of(Glossy<R>(p));
-    case Lobe::GlossyProduct:
-      return of(GlossyProduct<R>(p));
-    case Lobe::GlossyBack:
-      return of(GlossyBack<R>(p));
+      return CoatLobe<R>();
+    case Lobe::Glossy: {
+      const R gloss = non_negative(p[kWavelengths]);
+      return gloss <= R(axes::kLargestGloss) ? CoatLobe<R>::glossy(gloss) : CoatLobe<R>();
+    }
     case Lobe::Microfacet:
-      return of(Microfacet<R>(p));
+      return facets(Microfacet<R>(p));
     case Lobe::Beckmann:
-      return of(BeckmannMirror<R>(p));
+      return facets(BeckmannMirror<R>(p));
     default:
       return {};
   }
 }
 
-/// Calls `visit(broadness, weight)` for what a coat, the child `node`, is a sum of, the colours of
-/// all but metals being in the weights; whether all of it is known. `weights` holds that of `node`.
+/// Calls `visit(lobe, weight)` for what a coat, the child `node`, is a sum of, the colours being in
+/// the weights; whether all of it is known. `weights` holds that of `node`.
 template <class R, class Visit>
 inline bool for_each_coat_lobe(const Layout& layout, const R* params, int node,
                                PerNode<Spectrum<R>>& weights, Visit visit) {
@@ -178,89 +161,100 @@ inline bool for_each_coat_lobe(const Layout& layout, const R* params, int node,
       if (!for_each_coat_lobe(layout, params, n.children[c], weights, visit)) return false;
     return true;
   }
-  const auto broad = lobe_broadness(n, p);
-  if (broad)
-    visit(*broad, Spectrum<R>::map(
-                      [](R x) { return limited(x, R(0), R(1e18)); },
-                      weights.of[node] * (is_metal(n.lobe) ? Spectrum<R>(R(1)) : weight_at(p))));
-  return broad.has_value();
+  const auto lobe = coat_lobe(n, p);
+  if (lobe)
+    visit(*lobe, Spectrum<R>::map([](R x) { return limited(x, R(0), R(1e18)); },
+                                  weights.of[node] * weight_at(p)));
+  return lobe.has_value();
 }
 
 /// Of the coat that is the child `node`.
 template <class R>
 inline CoatKind<R> coat_kind(const Layout& layout, const R* params, int node) {
-  CoatKind<R> kind;
-  Spectrum<R> sum;
+  CoatLobe<R> last;
+  int count = 0;
+  R sum = 0;
+  bool rough = false, stretched = false, uneven = false;
   PerNode<Spectrum<R>> weights;
   weights.of[node] = Spectrum<R>(R(1));
-  bool rough = false;
   const bool known =
-      for_each_coat_lobe(layout, params, node, weights, [&](R broad, const Spectrum<R>& weight) {
-        rough |= broad > 0;
-        kind.broad += weight * broad;
-        sum += weight;
+      for_each_coat_lobe(layout, params, node, weights, [&](const auto& lobe, const auto& weight) {
+        last = lobe;
+        ++count;
+        rough |= lobe.known();
+        stretched |= lobe.stretched();
+        uneven |= std::count(weight.v.begin(), weight.v.end(), weight[0]) != kWavelengths;
+        sum += weight[0];
       });
-  kind.known = known && rough;
-  kind.polished = known && !rough;
-  for (int j = 0; j < kWavelengths; ++j)
-    kind.broad[j] = kind.known && sum[j] > 0 ? kind.broad[j] / sum[j] : R(0);
-  return kind;
+  if (!known || !rough) return {{}, -1, false, known};
+  if (count == 1) return {last, -1, !stretched};
+  return {{}, node, !stretched && !uneven && sum > 0 && count <= CoatParts<R>::kMost};
 }
 
-/// The mean of what coats let through together, those of the node `base` and above.
+/// Whether materials/two_coats.h knows of a coat of that kind under another.
 template <class R>
-inline R mean_through_all(const PerNode<CoatAbove<R>>& coats, int base, int j) {
-  const CoatAbove<R>& coat = coats.of[base];
-  const CoatNumbers<R>& below = coat.numbers;
-  const R mean = 1 - below.mean[j];
-  if (!coat.nested[j]) return mean;
-  const CoatAbove<R>& upper = coats.of[coat.upper];
-  if (!upper.nested[j]) {  // (1 - s) (T - mean T) times the other's, and the product of the means
-    const CoatNumbers<R>& above = upper.numbers;
-    const R product = mean_fresnel_product(below.eta[j], above.eta[j]);
-    return mean * (1 - above.mean[j]) +
-           (1 - below.broad[j]) * (1 - above.broad[j]) * (product - below.mean[j] * above.mean[j]);
-  }
-  const auto at = [&](R u) {  // z = u^3: dense towards grazing
-    const R z = u * u * u;
-    R through = 1;
-    for (int at_coat = base; at_coat >= 0;) {
-      const CoatAbove<R>& one = coats.of[at_coat];
-      through *= one.numbers.split(j, z, one.numbers.broad[j]).transmitted;
-      at_coat = one.nested[j] ? one.upper : -1;
-    }
-    return 6 * u * u * z * through;
-  };
-  R sum = 0;
-  constexpr int kPanels = 4;
-  for (int k = 0; k < kPanels; ++k)
-    sum += integrate<8>(at, R(k) / R(kPanels), R(k + 1) / R(kPanels));
-  return sum;
+inline bool knows_lower(const CoatAbove<R>& above, const CoatKind<R>& kind) {
+  return above.ior && !above.nested && above.solvable() &&
+         (!kind.known() || (kind.round && kind.mixture < 0));
+}
+
+/// What a coat does along `w`: that of several lobes the mean of what they would, by their weights.
+template <class R>
+inline CoatAlong<R> coat_along(const Layout& layout, const R* params, const R* ior,
+                               const CoatKind<R>& kind, Vec3<R> w) {
+  if (kind.mixture < 0) return {ior, kind.lobe, w};
+  CoatAlong<R> all;
+  Spectrum<R> sum;
+  PerNode<Spectrum<R>> weights;
+  weights.of[kind.mixture] = Spectrum<R>(R(1));
+  for_each_coat_lobe(layout, params, kind.mixture, weights,
+                     [&](const CoatLobe<R>& lobe, const Spectrum<R>& weight) {
+                       const CoatAlong<R> one(ior, lobe, w);
+                       all.reflected = one.reflected;
+                       all.through += weight * one.through;
+                       sum += weight;
+                     });
+  for (int j = 0; j < kWavelengths; ++j)
+    all.through[j] = sum[j] > 0 ? all.through[j] / sum[j] : 1 - all.reflected[j];
+  return all;
 }
 
 }  // namespace detail
 
-/// The coats that G of a lobe depends on: those of its node, which is `above`, and what the lobe
-/// itself, broad by `broad`, is a part of. None where they are too many.
 template <class R>
-inline std::optional<Coats<R>> coats_above(const PerNode<CoatAbove<R>>& coats,
-                                           const CoatAbove<R>& above, R broad) {
-  const bool part = above.part_of >= 0;
-  if (above.depth + part > Coats<R>::kMost) return {};
-  Coats<R> all;
-  if (part) {
-    all.reflects = true;
-    all.add(coats.of[above.part_of].numbers);
-    all.of[0].broad = Spectrum<R>(broad);
+inline CoatParts<R> coat_parts(const Layout& layout, const R* params, const CoatKind<R>& kind) {
+  CoatParts<R> all;
+  if (kind.mixture < 0) {
+    all.parts[all.count++] = {kind.lobe, 1};
+    return all;
   }
-  for (int at = above.base; at >= 0; at = coats.of[at].upper) all.add(coats.of[at].numbers);
+  R sum = 0;
+  PerNode<Spectrum<R>> weights;
+  weights.of[kind.mixture] = Spectrum<R>(R(1));
+  detail::for_each_coat_lobe(layout, params, kind.mixture, weights,
+                             [&](const auto& lobe, const auto& weight) {
+                               all.parts[all.count++] = {lobe, weight[0]};
+                               sum += weight[0];
+                             });
+  for (int k = 0; k < all.count; ++k) all.parts[k].share /= sum;
   return all;
+}
+
+/// `coat`, or another of a single lobe under it.
+template <class R>
+inline Coats<R> coats_above(const Layout& layout, const R* params, const CoatAbove<R>& coat,
+                            const CoatLobe<R>& lower = {}, const R* lower_ior = nullptr) {
+  Coats<R> coats{coat_parts(layout, params, coat.kind)};
+  std::copy_n(coat.ior, kWavelengths, coats.above_ior.begin());
+  coats.lower = lower;
+  if (lower_ior) std::copy_n(lower_ior, kWavelengths, coats.lower_ior.begin());
+  return coats;
 }
 
 /// The coats right above every node, where light is seen along `wo`.
 template <class R>
 inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
-                       PerNode<CoatAbove<R>>& coats) {
+                       PerNode<CoatAbove<R>>& coats, SolvedPerNode<LowerCoat<R>>& lower) {
   const auto nodes = layout.nodes();
   auto& above = coats.of;
   above[nodes.size() - 1] = {};
@@ -271,28 +265,22 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
     const int a = node.children[0], b = node.children[1];
     const auto coated = [&](int base, int coat, const R* ior, const R* layer) {
       if (std::all_of(ior, ior + kWavelengths, [](R n) { return n == 1; })) return;
+      const CoatKind<R> kind = detail::coat_kind(layout, params, coat);
       CoatAbove<R>& below = above[base];
-      below = {.ior = ior, .kind = detail::coat_kind(layout, params, coat)};
-      below.numbers = {ior, below.kind.broad};
-      below.base = base;
-      below.layer = layer;
-      below.o = {below.numbers, std::abs(wo.z)};
-      below.through_o = below.o.through;
-      below.depth = 1;
-      if (above[i].ior) {
-        const CoatAbove<R>& upper = above[above[i].base];
-        below.upper = above[i].base;
-        below.depth += upper.depth;
-        for (int j = 0; j < kWavelengths; ++j) {
-          below.nested[j] = below.numbers.eta[j] > 1 && upper.numbers.eta[j] > 1;
-          if (below.nested[j]) below.through_o[j] *= upper.through_o[j];
-        }
-      }
-      for (int j = 0; j < kWavelengths; ++j) {
-        const bool repeated = j > 0 && below.through_o[j] == below.through_o[j - 1];
-        below.mean[j] = repeated ? below.mean[j - 1] : detail::mean_through_all(coats, base, j);
-      }
-      if (below.kind.known) above[coat].part_of = base;
+      below = {.ior = ior,
+               .kind = kind,
+               .nested = above[i].ior != nullptr,
+               .base = base,
+               .layer = layer,
+               .o = detail::coat_along(layout, params, ior, kind, wo)};
+      below.left_o = below.through_o = below.o.through;
+      if (!detail::knows_lower(above[i], kind)) return;
+      below.lower = base;
+      lower.solve(base, coats_above(layout, params, above[i], kind.lobe, ior));
+      const LowerCoat<R>& two = lower[base];
+      below.left_o = two.along(below.o, std::abs(wo.z));
+      for (int j = 0; j < kWavelengths; ++j)
+        below.through_o[j] = below.left_o[j] * (two.known(j) ? above[i].o.through[j] : R(1));
     };
     if (node.lobe == Lobe::FresnelMix)
       coated(a, b, p, nullptr);

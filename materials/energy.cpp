@@ -14,30 +14,14 @@ namespace {
 const FacetTables kGgxTables{kGgxLoss, kGgxMean, kGgxStretched, kGgxStretchedMean};
 const FacetTables kBeckmannTables{kBeckmannLoss, kBeckmannMean, kBeckmannStretched,
                                   kBeckmannStretchedMean};
-const CoatedTables kGgxCoated{
-    {kGgxUnderTable0, kGgxUnderTable1, kGgxUnderTable2, kGgxUnderTable3},
-    kGgxCoatTable,
-    {kGgxStretchedUnderTable0, kGgxStretchedUnderTable1, kGgxStretchedUnderTable2},
-    kGgxStretchedCoatTable,
-    kGgxSpreadTable};
-const CoatedTables kBeckmannCoated{
-    {kBeckmannUnderTable0, kBeckmannUnderTable1, kBeckmannUnderTable2, kBeckmannUnderTable3},
-    kBeckmannCoatTable,
-    {kBeckmannStretchedUnderTable0, kBeckmannStretchedUnderTable1, kBeckmannStretchedUnderTable2},
-    kBeckmannStretchedCoatTable,
-    kBeckmannSpreadTable};
-const CoatedTables kGlossyCoated{
-    {kGlossyUnderTable0, kGlossyUnderTable1, kGlossyUnderTable2, kGlossyUnderTable3},
-    kGlossyCoatTable,
-    {},
-    nullptr,
-    kGlossySpreadTable};
-const CoatedTables kMatteCoated{
-    {kMatteUnderTable0, kMatteUnderTable1, kMatteUnderTable2, kMatteUnderTable3},
-    nullptr,
-    {},
-    nullptr,
-    kMatteSpreadTable};
+const CoatTables kGgxCoat{kGgxCoatTable, kGgxStretchedCoatTable, &kGgxCoated};
+const CoatTables kBeckmannCoat{kBeckmannCoatTable, kBeckmannStretchedCoatTable, &kBeckmannCoated};
+const CoatTables kGlossyCoat{kGlossyCoatTable, nullptr, &kGlossyCoated};
+const CoatedTables kGgxCoated{kGgxCoatedTable, kGgxStretchedCoatedTable, kGgxSpreadTable};
+const CoatedTables kBeckmannCoated{kBeckmannCoatedTable, kBeckmannStretchedCoatedTable,
+                                   kBeckmannSpreadTable};
+const CoatedTables kGlossyCoated{kGlossyCoatedTable, nullptr, kGlossySpreadTable};
+const CoatedTables kMatteCoated{kMatteCoatedTable, nullptr, kMatteSpreadTable};
 const float* const kFresnelProduct = kFresnelProductTable;
 const InterfaceTables kGgxInterface{{kGgxDense, kGgxRare},
                                     {kGgxDenseMean, kGgxRareMean},

@@ -11,7 +11,8 @@
 ///   shadow(w)             |w.z| Lambda(w): finite at grazing angles
 ///   sample_visible(wo, u1, u2)  a normal that `wo` (z > 0) sees
 ///   tables(), interface() what multiple scattering needs (materials/energy.h)
-///   coated()              the same of coats and of what lies below one (materials/coated.h)
+///   coat(), coated()      the same of coats, and of what lies below one (materials/coat_lobe.h,
+///                         materials/coated.h)
 
 #include "materials/coated.h"
 #include "materials/energy.h"
@@ -76,6 +77,7 @@ struct Ggx : Alpha<R> {
 
   static const FacetTables& tables() { return kGgxTables; }
   static const InterfaceTables& interface() { return kGgxInterface; }
+  static const CoatTables& coat() { return kGgxCoat; }
   static const CoatedTables& coated() { return kGgxCoated; }
 };
 
@@ -125,6 +127,7 @@ struct Beckmann : Alpha<R> {
 
   static const FacetTables& tables() { return kBeckmannTables; }
   static const InterfaceTables& interface() { return kBeckmannInterface; }
+  static const CoatTables& coat() { return kBeckmannCoat; }
   static const CoatedTables& coated() { return kBeckmannCoated; }
 
  private:

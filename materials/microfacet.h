@@ -46,6 +46,7 @@ struct RoughReflection {
   bool specular() const { return facets.specular(); }
   FacetLoss<R> loss() const { return {&facets.tables(), facets.ax, facets.ay}; }
   BounceSampling<R> bounces() const { return {facets.ax * facets.ay}; }
+  CoatLobe<R> coat() const { return CoatLobe<R>::facets(facets.coat(), facets.ax, facets.ay); }
   CoatedLobe<R> coated(Vec3<R> w) const {
     return CoatedLobe<R>::facets(facets.coated(), facets.ax, facets.ay, w);
   }

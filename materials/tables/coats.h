@@ -8,9 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "materials/coat.h"
 #include "materials/facets.h"
-#include "materials/under_coats.h"
 
 namespace mms::materials::tables {
 
@@ -49,68 +47,31 @@ struct Cubic {
   }
 };
 
-/// G^2 of materials/coated.h of a lobe that is to reflect the share A along each direction, from g
-/// = A / sqrt(K A), which is nearly right, by powers of what is still wrong (Knight, Ruiz and Ucar
-/// 2014: the symmetric form of Sinkhorn's iteration), two in turn as in materials/under_coats.h.
+/// G of materials/coated.h of a lobe, as what it lets light through along each direction, from g =
+/// T / sqrt(K T), which is nearly right, by the square root of what is still wrong (Knight, Ruiz
+/// and Ucar 2014: the symmetric form of Sinkhorn's iteration).
 template <class Lobe>
-Values scaled(const Lobe& lobe, const Values& share) {
-  Values g = share, mean;
-  const auto spread = [&] {
-    mean = lobe.mean(g);
-    for (double& m : mean) m = std::max(m, 1e-9);  // cubics between nodes may swing below 0
-  };
-  spread();
+Values scaled_mean(const Lobe& lobe, const Values& through) {
+  Values g = through, mean = lobe.mean(g);
   double worst = 1;
   for (int n = 0; n < 100 && worst > 1e-7; ++n) {
     worst = 0;
     for (std::size_t o = 0; o < g.size(); ++o) {
-      worst = std::max(worst, std::abs(g[o] * mean[o] - share[o]));
-      g[o] *= std::pow(share[o] / (g[o] * mean[o]), kScalingPowers<double>[n % 2]);
+      worst = std::max(worst, std::abs(g[o] * mean[o] - through[o]));
+      g[o] = std::sqrt(g[o] * through[o] / mean[o]);
     }
-    spread();
+    mean = lobe.mean(g);
   }
-  for (double& m : mean) m *= m;
   return mean;
 }
-
-/// What CoatedTables hold of that: below a coat that is broad by `s`, and as a coat.
-template <class Lobe>
-Values scaled_below(const Lobe& lobe, const Values& through, double s) {
-  Values above = scaled(lobe, through);
-  for (std::size_t o = 0; o < above.size(); ++o) above[o] = (above[o] - through[o]) / (1 - s);
-  return above;
-}
-template <class Lobe>
-Values scaled_coat(const Lobe& lobe, const Values& reflected) {
-  Values quotient = scaled(lobe, reflected);
-  for (std::size_t o = 0; o < quotient.size(); ++o)
-    quotient[o] = std::log(quotient[o] / reflected[o]);
-  return quotient;
-}
-
-/// E and T along directions of the |cosines| `z` of a coat that is broad by `s`.
-struct CoatShares {
-  Values reflected, through;
-
-  template <class Cosine>
-  CoatShares(int count, const Cosine& z, double eta, double s) : reflected(count), through(count) {
-    const double mean = std::max(fresnel_dielectric_diffuse(eta), 0.0);
-    for (int o = 0; o < count; ++o) {
-      const auto e = coat_split(fresnel_split(z(o), eta), mean, s);
-      reflected[o] = e.reflected;
-      through[o] = e.transmitted;
-    }
-  }
-};
 
 /// What stretched facets of a distribution have other than round ones: coefficients of
 /// [width][index][direction][term of ShapeBasis].
 struct StretchedTables {
-  std::vector<float> coat;                ///< CoatedTables::coat_stretched
-  std::vector<std::vector<float>> under;  ///< CoatedTables::under_stretched
+  std::vector<float> coat, coated;  ///< of CoatTables, and of CoatedTables
 };
-/// From the tables of round ones.
+/// From the tables of round ones, CoatTables::round and CoatedTables::polished.
 template <template <class> class Distribution>
-StretchedTables stretched_coats(const CoatedTables& round);
+StretchedTables stretched_coats(const float* round_coat, const float* round_coated);
 
 }  // namespace mms::materials::tables
