@@ -28,6 +28,7 @@
 ///   and what it covers by `layer` are not reciprocal on one side either.
 /// * Numbers out of range (negative or NaN colour, roughness, ...) are clamped into range.
 
+#include <bitset>
 #include <optional>
 #include <tuple>
 
@@ -36,7 +37,6 @@
 #include "materials/layout.h"
 #include "materials/lobe.h"
 #include "materials/microfacet.h"
-#include "materials/two_coats.h"
 #include "materials/under_coats.h"
 
 namespace mms::materials {
@@ -68,10 +68,13 @@ class Bsdf {
     PerNode<Spectrum<R>> probability;    ///< of lobes only
     bool any = false;                    ///< the hero has something to choose from
     PerNode<CoatAbove<R>> coats;         ///< where there is more than one node
-    SolvedPerNode<LowerCoat<R>> lower;   ///< of nodes whose `coats` says so
-    SolvedPerNode<UnderCoats<R>> under;  ///< of lobes of which `solved_under` is true
+    SolvedPerNode<UnderCoats<R>> under;  ///< of lobes that have several coats above or are of one
+    std::bitset<kMaxNodes> solved;       ///< for which nodes `under` is asked
+    PerNode<Spectrum<R>> scaling;        ///< g along `wo`, of lobes known under coats or in one
     /// What models with a function `seen` said of `wo`.
     std::tuple<PerNode<FacetsSeen<R>>, PerNode<InterfaceSeen<R>>> seen;
+
+    const UnderCoats<R>* solution(int node) const { return solved[node] ? &under[node] : nullptr; }
   };
   /// For all that comes along `wo`: made once where one `wo` meets many `wi`. What a choice was
   /// before, of any material, saves time where coats are the same.

@@ -41,18 +41,9 @@ concept CanBeSmooth = requires(const M& m) {
 }
 || requires(const M& m) { m.seen({}); };
 
-/// How much of a coat's factor for Lambert lobes (materials/combine.h) the model gets, the rest
-/// being the factor for others: all for a Lambert lobe. One that is nearly that gains by the first
-/// factor where it loses by the other; a mean of the two, like both of them, is symmetric.
+/// Whether a coat's factor for Lambert lobes (materials/combine.h) is the model's.
 template <class R, class M>
-inline R lambert_share(const M& model) {
-  if constexpr (std::is_same_v<M, Matte<R>> || std::is_same_v<M, Translucent<R>>)
-    return 1;
-  else if constexpr (requires { model.lambert_share(); })
-    return model.lambert_share();
-  else
-    return 0;
-}
+inline constexpr bool kLambert = std::is_same_v<M, Matte<R>> || std::is_same_v<M, Translucent<R>>;
 
 /// Whether the model is an interface of which it is known what a polished coat of these indices
 /// sends back.
@@ -213,7 +204,7 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
     return;
   }
   Spectrum<R> sum;
-  find_coats(*layout_, params_, wo, choice.coats, choice.lower);
+  find_coats(*layout_, params_, wo, choice.coats);
   if (layout_->transmits()) find_coated_glass(wo, choice.coats);
   weigh_for_choice(*layout_, params_, wo, &choice.coats, choice.probability);
   for (int i = 0; i < node_count(); ++i) {
@@ -223,16 +214,22 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
   for (int j = 0; j < kWavelengths; ++j) sum[j] = sum[j] > least ? 1 / sum[j] : R(0);
   for (int i = 0; i < node_count(); ++i) probability[i] *= sum;
   choice.any = sum[0] > 0;
+  choice.solved.reset();
   for (int i = 0; i < node_count(); ++i) {
     const CoatAbove<R>& coat = choice.coats.of[i];
-    if (!coat.kind.round && coat.lower < 0) continue;
+    const bool part = coat.part_of >= 0;
+    if (!part && !coat.ior) continue;
     with_model(i, 0, [&](const auto& model) {
       if constexpr (requires { model.coated(wo); }) {
+        if (detail::is_specular(model)) return 0;
         const CoatedLobe<R> lobe = model.coated(wo);
-        if (!solved_under(coat, lobe) || detail::is_specular(model)) return 0;
-        const LowerCoat<R>* lower = coat.lower >= 0 ? &choice.lower[coat.lower] : nullptr;
-        choice.under.solve(i, lobe, lower ? lower->coats() : coats_above(*layout_, params_, coat),
-                           lower);
+        if (part ? bool(coat.ior) : coat.upper >= 0)
+          if (const auto coats = coats_above(choice.coats, coat, lobe.broad)) {
+            choice.under.solve(i, lobe.round(), *coats);
+            choice.solved.set(i);
+          }
+        choice.scaling.of[i] =
+            coated_scaling(choice.coats, coat, choice.solution(i), lobe, wo.z, coat.through_o);
       }
       return 0;
     });
@@ -275,20 +272,19 @@ template <class R>
 Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const {
   Lobes<R> total;
   PerNode<NodeWeight<R>> weights;
-  weigh(*layout_, params_, choice.coats, choice.lower, wo, wi, mode, weights);
+  weigh(*layout_, params_, choice.coats, wo, wi, mode, weights);
   for (int i = 0; i < node_count(); ++i) {
     with_model(i, 0, [&](const auto& model) {
       using Model = std::decay_t<decltype(model)>;
       if constexpr (detail::CanBeSmooth<Model>) {
         if (detail::is_specular(model)) return 0;
-        const R share = detail::lambert_share<R>(model);
         const Lobes<R> l = detail::evaluate<R>(model, wo, wi, mode, i, choice);
         total.pdf += l.pdf * choice.probability.of[i];
         if constexpr (requires { model.coated(wo); }) {
           const CoatAbove<R>& coat = choice.coats.of[i];
-          if (coat.ior && (share == 0 || coat.solvable())) {
-            total.f += l.f * coated_weight(weights.of[i], coat, choice.lower, choice.under[i],
-                                           model.coated(wo), model.coated(wi), wo.z, wi.z);
+          if (coat.part_of >= 0 || coat.ior) {
+            total.f += l.f * coated_weight(weights.of[i], choice.coats, coat, choice.solution(i),
+                                           model.coated(wi), wi.z, choice.scaling.of[i]);
             return 0;
           }
         }
@@ -296,8 +292,7 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
           total.f += l.f * weights.of[i].glass;
           return 0;
         }
-        if (share > 0) total.f += l.f * weights.of[i].lambert * share;
-        if (share < 1) total.f += l.f * weights.of[i].other * (1 - share);
+        total.f += l.f * (detail::kLambert<R, Model> ? weights.of[i].lambert : weights.of[i].other);
       }
       return 0;
     });
@@ -372,11 +367,14 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u,
   if (node_count() == 1)
     weights.of[0] = {};
   else
-    weigh(*layout_, params_, choice.coats, choice.lower, wo, s.wi, mode, weights);
+    weigh(*layout_, params_, choice.coats, wo, s.wi, mode, weights);
   for (int i = 0; i < node_count(); ++i) {
     const SpecularTerms<R> t = i == lobe ? mine : terms_of(i);
     const bool glass = node_count() > 1 && choice.coats.of[i].passed_once;
-    const Spectrum<R>& weight = glass ? weights.of[i].glass : weights.of[i].other;
+    const Spectrum<R> weight = glass              ? weights.of[i].glass
+                               : node_count() > 1 ? delta_weight(weights.of[i].other, choice.coats,
+                                                                 choice.coats.of[i], cos_i)
+                                                  : weights.of[i].other;
     for (int j = 0; j < kWavelengths; ++j) {
       if (!reflect && t.eta[j] != eta) continue;
       const R scale = reflect || mode == Mode::Importance ? R(1) : 1 / (eta * eta);

@@ -2,35 +2,60 @@
 #pragma once
 
 /// \file
-/// Lobes that reflect, under a coat. K(o, i) is such a lobe that is white and lossless, so that
-/// int K |cos i| di = 1, and T(o) = 1 - F(o) what the coat lets through along o. There is one
-/// positive g with
+/// Lobes that are to reflect a given share of light: those below a coat what it lets through, its
+/// own what it reflects. K(o, i) is such a lobe that is white and lossless, so that int K |cos i|
+/// di = 1, and A(o) > 0 the share. There is one positive g with
 ///
-///   g(o) G(o) = T(o),   G(o) = int g(i) K(o, i) |cos i| di
+///   g(o) G(o) = A(o),   G(o) = int g(i) K(o, i) |cos i| di
 ///
 /// (the scaling of a symmetric kernel to given sums, Sinkhorn 1967), and g(o) g(i) K(o, i) is
-/// reciprocal, positive and reflects T exactly: coat and base together lose nothing. For Lambert's
-/// lobe g = T / sqrt(mean T); for one that is all but a mirror, sqrt T. Where the base absorbs, its
+/// reciprocal, positive and reflects A exactly: coat and base together lose nothing. For Lambert's
+/// lobe g = A / sqrt(mean A); for one that is all but a mirror, sqrt A. Where the base absorbs, its
 /// f is below K's, and so is what it reflects.
 ///
-/// Tables hold G^2 - T under a polished coat for each width, index above 1 and direction
-/// (materials/tables/coated.cpp): the energy of coat and base is 1 within 1e-4. Under a coat whose
-/// lobe is rough, T is 1 - E (materials/coat_lobe.h), of another width and an index; there, and
-/// below two coats, G is solved for, with K as a matrix over few directions
-/// (materials/under_coats.h).
-///
-/// For stretched facets under a polished coat another table says what theirs is above that of round
-/// ones as wide along the direction, as polynomials over the shape that they have along it
-/// (materials/tables/stretched_coats.cpp): within 3e-4, beyond anisotropy 0.9 within 1e-3, for
-/// indices up to 4.
+/// Tables hold, for each width, index above 1 and direction, G^2 - T where T is 1 - (1 - s) F - s L
+/// (materials/coat.h) for some s, with polynomials between; and ln (G^2 / E) as a coat: E is next
+/// to nothing along most directions where the index is next to 1. Where a part of T does not depend
+/// on the direction, G^2 - T is as much less as F and L are, but for the square of their variation
+/// (materials/tables/coated.cpp). What
+/// stretched facets have above round ones as wide along the direction is in further tables, as
+/// polynomials over the shape that they have along it (materials/tables/stretched_coats.cpp). The
+/// energy of coat and base is 1 within 1e-4; of stretched facets, under a coat or as one, for
+/// indices from 1.2 to 4, within 5e-4, beyond anisotropy 0.9 1.5e-3; as a coat next to grazing
+/// 2e-3, and more towards index 1. Below several coats G is solved for (materials/under_coats.h).
 
-#include "materials/coat_lobe.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "materials/coat.h"
+#include "materials/energy.h"
+#include "materials/fresnel.h"
+#include "materials/lobe.h"
 
 namespace mms::materials {
 
 namespace axes {
 /// Widths of `rough_matte`, and directions of a lobe's matrix.
 inline constexpr int kCoatedMatte = 5, kSpread = 32;
+/// s of the coats that lobes lie below in the tables.
+inline constexpr double kHeld[] = {0, 0.15, 0.45, 0.8, 1}, kStretchedHeld[] = {0, 0.3, 0.7, 1};
+/// Of stretched facets; the axis of the width is that of an interface.
+inline constexpr int kStretchedCoatAlpha = 17, kStretchedCoatIndex = 11,
+                     kStretchedCoatDirection = 25, kStretchedCoatDegree = 12;
+inline constexpr double kLeastCoatIndex = 0.1, kMostCoatIndex = 0.8801117;  ///< of 1.0002 and 4
+
+template <class R>
+inline R stretched_coat_index(R eta) {
+  return (index(eta) - R(kLeastCoatIndex)) / R(kMostCoatIndex - kLeastCoatIndex);
+}
+/// As wide as facets of axes::width are lobes of `glossy` of that.
+template <class R>
+inline R gloss_width(R gloss) {
+  return 1 / std::sqrt(1 + gloss);
+}
 
 /// Of a direction of |cosine| `z`, for a lobe as wide as cosines of `width`: what a lobe does to
 /// smooth functions changes next to there, and what a coat lets through next to grazing.
@@ -41,35 +66,107 @@ inline R spread_direction(R z, R width) {
 }
 }  // namespace axes
 
-/// Of one kind of lobe.
+/// Of one kind of lobe, for relative indices above 1.
 struct CoatedTables {
-  const float* polished;   ///< [width][index][direction] along the axes of a coat
-  const float* stretched;  ///< of `polished`, for stretched facets (materials/coat_lobe.h)
+  /// Of G^2 - T for each s of axes::kHeld: [width][index][direction].
+  const float* under[std::size(axes::kHeld)];
+  const float* coat;  ///< of ln (G^2 / E), where the lobe can be a coat
+  /// The same of stretched facets, for each s of axes::kStretchedHeld:
+  /// [root of both alphas][index][direction][term of ShapeBasis].
+  const float* under_stretched[std::size(axes::kStretchedHeld)];
+  const float* coat_stretched;
   /// [width][column][direction o]: int K l |cos i| di for each of axes::kSpread polynomials l over
   /// axes::spread_direction, which are 1 at one of the directions and 0 at the others. Then the
-  /// cosines of these directions, their axes::coat_direction, and int l 2 z dz of the polynomials.
+  /// cosines of these directions.
   const float* spread;
-  static constexpr int kColumns = axes::kSpread + 3;
+  static constexpr int kColumns = axes::kSpread + 1;
 };
 extern const CoatedTables kGgxCoated, kBeckmannCoated, kGlossyCoated, kMatteCoated;
 
-/// Mean of the product of Fresnel's reflectances of two relative indices: int F G 2 z dz, to 1e-4.
-extern const float* const kFresnelProduct;  ///< [index][index]
-
+/// What tables over a lobe's width hold for relative index `eta` > 1 and |cosine| `z`: the sum of
+/// `count` of them, by weights, or one.
 template <class R>
-inline R mean_fresnel_product(R a, R b) {
+inline R interpolate_coat(const float* const* tables, const R* weights, int count,
+                          const Stencil<R>& width, R eta, R z) {
   using namespace axes;
-  const auto x = Stencil<R>::at(index(a), kCoatIndex), y = Stencil<R>::at(index(b), kCoatIndex);
-  return interpolate(kFresnelProduct, x, coefficients(kCoatIndex), y);
+  const auto n = Stencil<R>::at(index(eta), kCoatIndex);
+  const auto d = Stencil<R>::at(coat_direction(z), kCoatDirection);
+  constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatIndex);
+  R sum = 0;
+  for (int k = 0; k < count; ++k)
+    if (weights[k] != 0) sum += weights[k] * interpolate(tables[k], width, n0, n, n1, d);
+  return sum;
+}
+template <class R>
+inline R interpolate_coat(const float* table, const Stencil<R>& width, R eta, R z) {
+  const R one = 1;
+  return interpolate_coat(&table, &one, 1, width, eta, z);
 }
 
-/// Of the product of what two coats let through; of the first alone where there are not two indices
-/// above 1.
+/// Facets as they look along one direction.
 template <class R>
-inline R mean_through(R eta, R above) {
-  const R through = mean_through(eta);
-  if (!(above > 1 && eta > 1)) return through;
-  return through - fresnel_dielectric_diffuse(above) + mean_fresnel_product(eta, above);
+struct FacetsAlong {
+  R like;  ///< the width of round ones that are nearly as wide; at most 1
+  R mean;  ///< of both widths, the geometric one
+  bool stretched = false;
+  Stencil<R> root{};
+  Shape<R> shape{};
+
+  FacetsAlong(R ax, R ay, Vec3<R> w) : like(ax), mean(std::sqrt(ax * ay)), stretched(ax != ay) {
+    if (!stretched) return;
+    if (ax < ay) std::swap(ax, ay), std::swap(w.x, w.y);
+    like = coated_width(ax, ay, w);
+    root = Stencil<R>::at(axes::interface_alpha(mean), axes::kStretchedCoatAlpha);
+    shape = Shape<R>::of(ax, ay, w.x, w.y);
+  }
+
+  /// `x` along the wider axis.
+  static R coated_width(R wide, R narrow, Vec3<R> w) {
+    const R x = wide * w.x, y = narrow * w.y, area = wide * narrow;
+    const R along = std::sqrt(x * x + y * y + w.z * w.z * area);
+    return along / (1 + (along - std::sqrt(area)));
+  }
+
+  /// The sum of `count` tables, by weights, for relative index `eta` > 1 and |cosine| `z`.
+  R difference(const float* const* tables, const R* weights, int count, R eta, R z) const {
+    using namespace axes;
+    using Basis = ShapeBasis<R>;
+    constexpr int terms = Basis::terms(kStretchedCoatDegree),
+                  n1 = terms * coefficients(kStretchedCoatDirection),
+                  n0 = n1 * coefficients(kStretchedCoatIndex);
+    const auto n = Stencil<R>::at(stretched_coat_index(eta), kStretchedCoatIndex);
+    const auto d = Stencil<R>::at(coat_direction(z), kStretchedCoatDirection);
+    R sums[terms] = {};
+    for (int b = 0; b < count; ++b) {
+      if (weights[b] == 0) continue;
+      for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j)
+          for (int k = 0; k < 4; ++k) {
+            const float* p =
+                tables[b] + (root.first + i) * n0 + (n.first + j) * n1 + (d.first + k) * terms;
+            const R weight = weights[b] * root.weight[i] * n.weight[j] * d.weight[k];
+            for (int t = 0; t < terms; ++t) sums[t] += weight * R(p[t]);
+          }
+    }
+    const Basis basis(shape, kStretchedCoatDegree);
+    R sum = 0;
+    for (int t = 0; t < terms; ++t) sum += sums[t] * basis.value[t];
+    // Above the axis few directions are let through.
+    const auto mean_through = [](R index) { return 1 - fresnel_dielectric_diffuse(index); };
+    return eta > 4 ? sum * (mean_through(eta) / mean_through(R(4))) : sum;
+  }
+};
+
+/// The weights of values at `nodes` for that of their polynomial at `x`.
+template <class R, std::size_t N>
+inline std::array<R, N> lagrange(const double (&nodes)[N], R x) {
+  std::array<R, N> to;
+  for (std::size_t k = 0; k < N; ++k) {
+    to[k] = 1;
+    for (std::size_t m = 0; m < N; ++m)
+      if (m != k) to[k] *= (x - R(nodes[m])) / R(nodes[k] - nodes[m]);
+  }
+  return to;
 }
 
 /// One lobe's width; of stretched facets, along one direction.
@@ -77,39 +174,65 @@ template <class R>
 struct CoatedLobe {
   const CoatedTables* tables;
   Stencil<R> width;
-  R cosines = 1;  ///< the width as that of axes::spread_direction
-  FacetsAlong<R> along{nullptr, R(1), R(1), {}};
+  R cosines = 1;         ///< the width as that of axes::spread_direction
+  Broadness<R> broad{};  ///< of a coat of it
+  FacetsAlong<R> along{R(1), R(1), {}};
 
   static CoatedLobe facets(const CoatedTables& tables, R ax, R ay, Vec3<R> w) {
-    const FacetsAlong<R> along(tables.stretched, ax, ay, w);
-    return {&tables, CoatLobe<R>::facet_width(along.like), axes::width(along.like), along};
+    const FacetsAlong<R> along(ax, ay, w);
+    return {&tables, facet_width(along.like), axes::width(along.like),
+            Broadness<R>::facets(along.mean), along};
   }
   static CoatedLobe glossy(R gloss) {
     return {&kGlossyCoated, Stencil<R>::at(axes::gloss(gloss), axes::kGloss),
-            axes::gloss_width(gloss)};
-  }
-  /// That of a coat which lies under another. \pre known, and not stretched
-  static CoatedLobe of(const CoatLobe<R>& coat) {
-    return {coat.tables->coated, coat.width, coat.cosines};
+            axes::gloss_width(gloss), Broadness<R>::glossy(gloss)};
   }
   static CoatedLobe matte(R roughness) {
     return {&kMatteCoated, Stencil<R>::at(roughness, axes::kCoatedMatte)};
   }
+  static Stencil<R> facet_width(R alpha) {
+    return Stencil<R>::at(axes::coat_alpha(alpha), axes::kCoatAlpha);
+  }
 
-  bool stretched() const { return along.table; }
+  bool stretched() const { return along.stretched; }
+  /// Round facets of the same mean width; other lobes as they are.
+  CoatedLobe round() const {
+    if (!stretched()) return *this;
+    return facets(*tables, along.mean, along.mean, {});
+  }
   /// Of lobes that are not stretched.
   bool is_like(const CoatedLobe& other) const {
     return tables == other.tables && width == other.width && cosines == other.cosines;
   }
 
-  /// G^2 - T along a direction of |cosine| `z`, for relative index `eta` > 1.
-  R above(R eta, R z) const {
-    return interpolate_coat(tables->polished, width, eta, z) + along.difference(eta, z);
+  /// G^2 along a direction of |cosine| `z` below a coat of relative index `eta` > 1, for T =
+  /// `through` along the direction. What rounding leaves of G^2 next to the surface is kept from 0.
+  R below(R eta, const CoatShape<R>& coat, R z, R through) const {
+    const R varies = coat.steep + coat.held;
+    if (!(varies > 0)) return through;
+    const R s = coat.held / varies;
+    const auto weights = lagrange<R>(axes::kHeld, s);
+    R above = interpolate_coat(tables->under, weights.data(), int(weights.size()), width, eta, z);
+    if (stretched()) {
+      const auto of_shape = lagrange<R>(axes::kStretchedHeld, s);
+      // Below the axis few directions are not let through.
+      constexpr R least = R(axes::kLeastCoatIndex * axes::kLeastCoatIndex * axes::kLeastCoatIndex *
+                            axes::kLeastCoatIndex);
+      above +=
+          along.difference(tables->under_stretched, of_shape.data(), int(of_shape.size()), eta, z) *
+          std::min((eta - 1) / (least * (eta + 1)), R(1));
+    }
+    return std::max(through + varies * above, through / 2);
   }
-  /// G^2, for T = `through` along the direction. Nowhere below half of T: what rounding leaves of
-  /// it next to the surface is kept from 0.
-  R mean_squared(R eta, R z, R through) const {
-    return std::max(through + above(eta, z), through / 2);
+  /// The same as a part of a coat, for E = `reflected`, where the logarithm of E varies `varies`
+  /// times as much as it does where no other coat is above.
+  R as_coat(R eta, R z, R reflected, R varies = 1) const {
+    R quotient = interpolate_coat(tables->coat, width, eta, z);
+    if (stretched()) {
+      const R one = 1;
+      quotient += along.difference(&tables->coat_stretched, &one, 1, eta, z);
+    }
+    return reflected * std::exp(limited(quotient * varies, R(-20), R(40)));
   }
 };
 

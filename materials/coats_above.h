@@ -10,26 +10,27 @@
 #include <bitset>
 #include <optional>
 
+#include "base/quadrature.h"
+#include "materials/coat.h"
 #include "materials/coated.h"
+#include "materials/conductor.h"
+#include "materials/film.h"
 #include "materials/fresnel.h"
 #include "materials/glass_coat.h"
+#include "materials/glossy.h"
 #include "materials/layout.h"
 #include "materials/lobe.h"
 #include "materials/microfacet.h"
-#include "materials/rough_coat.h"
-#include "materials/two_coats.h"
+#include "materials/under_coats.h"
 
 namespace mms::materials {
 
-/// What is known of a coat's own lobes. Of a mirror, and of what is not, all is as if polished.
+/// What is known of a coat's own lobes.
 template <class R>
 struct CoatKind {
-  CoatLobe<R> lobe{};  ///< where there is one
-  int mixture = -1;    ///< where there are several, the node that they are the children of
-  bool round = false;  ///< known, and not stretched; of several, also the same at each wavelength
-  bool polished = false;  ///< nothing but mirrors
-
-  bool known() const { return lobe.known() || mixture >= 0; }
+  bool known = false;          ///< how each spreads light, and one is no mirror
+  bool polished = false;       ///< all are mirrors
+  Spectrum<R> held{}, even{};  ///< as in materials/coat.h; of what is not known, 0
 };
 
 /// The coat right above a node, where light is seen along one direction.
@@ -37,18 +38,21 @@ template <class R>
 struct CoatAbove {
   const R* ior = nullptr;  ///< its indices; null: there is none
   CoatKind<R> kind{};
-  bool nested = false;       ///< there is a second coat right above that one
-  int lower = -1;            ///< then the node of which materials/two_coats.h knows it
+  CoatNumbers<R> numbers{};
   int base = -1;             ///< the node right below it
+  int upper = -1;            ///< that of a coat right above this one, if there is one
+  int depth = 0;             ///< of coats, with those above
+  int part_of = -1;          ///< that of the coat of whose known lobes this node is one, or some
   const R* layer = nullptr;  ///< the numbers of its `coat`, if it is one
   bool passed_once = false;  ///< by what changes sides at this lobe (materials/glass_coat.h)
   bool over_glass = false;   ///< such lobes are all or a part of what lies below
   CoatAlong<R> o{};
-  Spectrum<R> left_o{}, through_o{};  ///< what is left of light by this coat, and by all that count
-  Spectrum<R> mirrored{};             ///< over glass: what the coat reflects
+  Spectrum<R> through_o{};  ///< what is left of light by all coats that count together
+  Spectrum<R> mean{};       ///< of that over the hemisphere
+  Spectrum<R> mirrored{};   ///< over glass: what the coat reflects
 
-  /// Whether all that lies above is known to a lobe that is not stretched.
-  bool solvable() const { return nested ? lower >= 0 : kind.round || !kind.known(); }
+  /// Whether at wavelength j it counts together with those above.
+  std::array<bool, kWavelengths> nested{};
 };
 
 /// One entry for each node of a layout; entries beyond it are not initialised.
@@ -127,30 +131,43 @@ inline void for_each_part(const Layout& layout, const R* params, int node,
     for_each_part(layout, params, n.children[c], weights, visit);
 }
 
-/// The lobe of a node if it is one whose spread is known; a mirror has no tables.
+/// Whether the lobe's colour is not its first numbers, but what its facets reflect.
+inline bool is_metal(Lobe lobe) {
+  return lobe == Lobe::Conductor || lobe == Lobe::ColouredMetal || lobe == Lobe::FilmConductor;
+}
+
+/// Of a node's lobe, if it is one whose spread is known.
 template <class R>
-inline std::optional<CoatLobe<R>> coat_lobe(const Layout::Node& node, const R* p) {
-  const auto facets = [](const auto& model) {
-    return model.specular() ? CoatLobe<R>() : model.rough.coat();
+inline std::optional<Broadness<R>> lobe_broadness(const Layout::Node& node, const R* p) {
+  const auto of = [](const auto& model) {
+    return model.specular() ? Broadness<R>{} : model.coated({0, 0, 1}).broad;
   };
   switch (node.lobe) {
     case Lobe::Mirror:
-      return CoatLobe<R>();
-    case Lobe::Glossy: {
-      const R gloss = non_negative(p[kWavelengths]);
-      return gloss <= R(axes::kLargestGloss) ? CoatLobe<R>::glossy(gloss) : CoatLobe<R>();
-    }
+      return Broadness<R>{};
+    case Lobe::Conductor:
+      return of(Conductor<R>(p));
+    case Lobe::ColouredMetal:
+      return of(ColouredMetal<R>(p));
+    case Lobe::FilmConductor:
+      return of(FilmConductor<R>(p));
+    case Lobe::Glossy:
+      return of(Glossy<R>(p));
+    case Lobe::GlossyProduct:
+      return of(GlossyProduct<R>(p));
+    case Lobe::GlossyBack:
+      return of(GlossyBack<R>(p));
     case Lobe::Microfacet:
-      return facets(Microfacet<R>(p));
+      return of(Microfacet<R>(p));
     case Lobe::Beckmann:
-      return facets(BeckmannMirror<R>(p));
+      return of(BeckmannMirror<R>(p));
     default:
       return {};
   }
 }
 
-/// Calls `visit(lobe, weight)` for what a coat, the child `node`, is a sum of, the colours being in
-/// the weights; whether all of it is known. `weights` holds that of `node`.
+/// Calls `visit(broadness, weight)` for what a coat, the child `node`, is a sum of, the colours of
+/// all but metals being in the weights; whether all of it is known. `weights` holds that of `node`.
 template <class R, class Visit>
 inline bool for_each_coat_lobe(const Layout& layout, const R* params, int node,
                                PerNode<Spectrum<R>>& weights, Visit visit) {
@@ -161,100 +178,79 @@ inline bool for_each_coat_lobe(const Layout& layout, const R* params, int node,
       if (!for_each_coat_lobe(layout, params, n.children[c], weights, visit)) return false;
     return true;
   }
-  const auto lobe = coat_lobe(n, p);
-  if (lobe)
-    visit(*lobe, Spectrum<R>::map([](R x) { return limited(x, R(0), R(1e18)); },
-                                  weights.of[node] * weight_at(p)));
-  return lobe.has_value();
+  const auto broad = lobe_broadness(n, p);
+  if (broad)
+    visit(*broad, Spectrum<R>::map(
+                      [](R x) { return limited(x, R(0), R(1e18)); },
+                      weights.of[node] * (is_metal(n.lobe) ? Spectrum<R>(R(1)) : weight_at(p))));
+  return broad.has_value();
 }
 
 /// Of the coat that is the child `node`.
 template <class R>
 inline CoatKind<R> coat_kind(const Layout& layout, const R* params, int node) {
-  CoatLobe<R> last;
-  int count = 0;
-  R sum = 0;
-  bool rough = false, stretched = false, uneven = false;
-  PerNode<Spectrum<R>> weights;
-  weights.of[node] = Spectrum<R>(R(1));
-  const bool known =
-      for_each_coat_lobe(layout, params, node, weights, [&](const auto& lobe, const auto& weight) {
-        last = lobe;
-        ++count;
-        rough |= lobe.known();
-        stretched |= lobe.stretched();
-        uneven |= std::count(weight.v.begin(), weight.v.end(), weight[0]) != kWavelengths;
-        sum += weight[0];
-      });
-  if (!known || !rough) return {{}, -1, false, known};
-  if (count == 1) return {last, -1, !stretched};
-  return {{}, node, !stretched && !uneven && sum > 0 && count <= CoatParts<R>::kMost};
-}
-
-/// Whether materials/two_coats.h knows of a coat of that kind under another.
-template <class R>
-inline bool knows_lower(const CoatAbove<R>& above, const CoatKind<R>& kind) {
-  return above.ior && !above.nested && above.solvable() &&
-         (!kind.known() || (kind.round && kind.mixture < 0));
-}
-
-/// What a coat does along `w`: that of several lobes the mean of what they would, by their weights.
-template <class R>
-inline CoatAlong<R> coat_along(const Layout& layout, const R* params, const R* ior,
-                               const CoatKind<R>& kind, Vec3<R> w) {
-  if (kind.mixture < 0) return {ior, kind.lobe, w};
-  CoatAlong<R> all;
+  CoatKind<R> kind;
   Spectrum<R> sum;
   PerNode<Spectrum<R>> weights;
-  weights.of[kind.mixture] = Spectrum<R>(R(1));
-  for_each_coat_lobe(layout, params, kind.mixture, weights,
-                     [&](const CoatLobe<R>& lobe, const Spectrum<R>& weight) {
-                       const CoatAlong<R> one(ior, lobe, w);
-                       all.reflected = one.reflected;
-                       all.through += weight * one.through;
-                       sum += weight;
-                     });
-  for (int j = 0; j < kWavelengths; ++j)
-    all.through[j] = sum[j] > 0 ? all.through[j] / sum[j] : 1 - all.reflected[j];
-  return all;
+  weights.of[node] = Spectrum<R>(R(1));
+  bool rough = false;
+  const bool known = for_each_coat_lobe(layout, params, node, weights,
+                                        [&](const Broadness<R>& broad, const Spectrum<R>& weight) {
+                                          rough |= !broad.mirror();
+                                          kind.held += weight * broad.held;
+                                          kind.even += weight * broad.even;
+                                          sum += weight;
+                                        });
+  kind.known = known && rough;
+  kind.polished = known && !rough;
+  for (int j = 0; j < kWavelengths; ++j) {
+    const bool any = kind.known && sum[j] > 0;
+    kind.held[j] = any ? kind.held[j] / sum[j] : R(0);
+    kind.even[j] = any ? kind.even[j] / sum[j] : R(0);
+  }
+  return kind;
+}
+
+/// The mean of what coats let through together, those of the node `base` and above.
+template <class R>
+inline R mean_through_all(const PerNode<CoatAbove<R>>& coats, int base, int j) {
+  if (!coats.of[base].nested[j]) return 1 - coats.of[base].numbers.mean_reflected(j);
+  const auto at = [&](R u) {  // z = u^3: dense towards grazing
+    const R z = u * u * u;
+    R through = 1;
+    for (int at_coat = base; at_coat >= 0;) {
+      const CoatAbove<R>& one = coats.of[at_coat];
+      through *= one.numbers.split(j, z).transmitted;
+      at_coat = one.nested[j] ? one.upper : -1;
+    }
+    return 6 * u * u * z * through;
+  };
+  return R(integrate<8>(at, 0, 0.5) + integrate<8>(at, 0.5, 1));
 }
 
 }  // namespace detail
 
+/// The coats that G of a lobe depends on: those of its node, which is `above`, and what the lobe
+/// itself, as broad as `broad`, is a part of. None where they are too many.
 template <class R>
-inline CoatParts<R> coat_parts(const Layout& layout, const R* params, const CoatKind<R>& kind) {
-  CoatParts<R> all;
-  if (kind.mixture < 0) {
-    all.parts[all.count++] = {kind.lobe, 1};
-    return all;
+inline std::optional<Coats<R>> coats_above(const PerNode<CoatAbove<R>>& coats,
+                                           const CoatAbove<R>& above, const Broadness<R>& broad) {
+  const bool part = above.part_of >= 0;
+  if (above.depth + part > Coats<R>::kMost) return {};
+  Coats<R> all;
+  if (part) {
+    all.reflects = true;
+    all.add(coats.of[above.part_of].numbers);
+    for (int j = 0; j < kWavelengths; ++j) all.of[0].shape[j] = all.of[0].of(j, broad);
   }
-  R sum = 0;
-  PerNode<Spectrum<R>> weights;
-  weights.of[kind.mixture] = Spectrum<R>(R(1));
-  detail::for_each_coat_lobe(layout, params, kind.mixture, weights,
-                             [&](const auto& lobe, const auto& weight) {
-                               all.parts[all.count++] = {lobe, weight[0]};
-                               sum += weight[0];
-                             });
-  for (int k = 0; k < all.count; ++k) all.parts[k].share /= sum;
+  for (int at = above.base; at >= 0; at = coats.of[at].upper) all.add(coats.of[at].numbers);
   return all;
-}
-
-/// `coat`, or another of a single lobe under it.
-template <class R>
-inline Coats<R> coats_above(const Layout& layout, const R* params, const CoatAbove<R>& coat,
-                            const CoatLobe<R>& lower = {}, const R* lower_ior = nullptr) {
-  Coats<R> coats{coat_parts(layout, params, coat.kind)};
-  std::copy_n(coat.ior, kWavelengths, coats.above_ior.begin());
-  coats.lower = lower;
-  if (lower_ior) std::copy_n(lower_ior, kWavelengths, coats.lower_ior.begin());
-  return coats;
 }
 
 /// The coats right above every node, where light is seen along `wo`.
 template <class R>
 inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
-                       PerNode<CoatAbove<R>>& coats, SolvedPerNode<LowerCoat<R>>& lower) {
+                       PerNode<CoatAbove<R>>& coats) {
   const auto nodes = layout.nodes();
   auto& above = coats.of;
   above[nodes.size() - 1] = {};
@@ -265,22 +261,31 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
     const int a = node.children[0], b = node.children[1];
     const auto coated = [&](int base, int coat, const R* ior, const R* layer) {
       if (std::all_of(ior, ior + kWavelengths, [](R n) { return n == 1; })) return;
-      const CoatKind<R> kind = detail::coat_kind(layout, params, coat);
       CoatAbove<R>& below = above[base];
-      below = {.ior = ior,
-               .kind = kind,
-               .nested = above[i].ior != nullptr,
-               .base = base,
-               .layer = layer,
-               .o = detail::coat_along(layout, params, ior, kind, wo)};
-      below.left_o = below.through_o = below.o.through;
-      if (!detail::knows_lower(above[i], kind)) return;
-      below.lower = base;
-      lower.solve(base, coats_above(layout, params, above[i], kind.lobe, ior));
-      const LowerCoat<R>& two = lower[base];
-      below.left_o = two.along(below.o, std::abs(wo.z));
+      below = {.ior = ior, .kind = detail::coat_kind(layout, params, coat)};
+      below.base = base;
+      below.layer = layer;
+      below.depth = 1;
+      const CoatAbove<R>* upper = above[i].ior ? &above[above[i].base] : nullptr;
+      Spectrum<R> least;
+      if (upper) {
+        below.upper = upper->base;
+        below.depth += upper->depth;
+        for (int j = 0; j < kWavelengths; ++j) {
+          below.nested[j] = relative_eta(ior[j], Vec3<R>{0, 0, 1}) > 1 && upper->numbers.eta[j] > 1;
+          if (below.nested[j]) least[j] = upper->numbers.least_below(j);
+        }
+      }
+      below.numbers = {ior, below.kind.held, below.kind.even, least};
+      below.o = {below.numbers, std::abs(wo.z)};
+      below.through_o = below.o.through;
       for (int j = 0; j < kWavelengths; ++j)
-        below.through_o[j] = below.left_o[j] * (two.known(j) ? above[i].o.through[j] : R(1));
+        if (below.nested[j]) below.through_o[j] *= upper->through_o[j];
+      for (int j = 0; j < kWavelengths; ++j) {
+        const bool repeated = j > 0 && below.through_o[j] == below.through_o[j - 1];
+        below.mean[j] = repeated ? below.mean[j - 1] : detail::mean_through_all(coats, base, j);
+      }
+      if (below.kind.known) above[coat].part_of = base;
     };
     if (node.lobe == Lobe::FresnelMix)
       coated(a, b, p, nullptr);

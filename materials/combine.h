@@ -5,58 +5,49 @@
 /// How combiners weigh their children: from the root down, a factor for each node. Factors of
 /// `mix`, `scale` and `add` are numbers; those of `fresnel_mix` depend on both directions.
 ///
-/// `fresnel_mix(base, coat, ior)`, F = F(|wo.z|), F' = F(|wi.z|), both from outside the coat:
-///   coat: min(F, F')            for a delta F itself, as both angles are the same
-///   base: 1 - max(F, F')        or, for the Lambert lobes right below it,
-///         (1 - F)(1 - F') / (1 - mean F)    (Kelemen and Szirmay-Kalos 2001), whose integral over
-///                               wi is exactly 1 - F
-/// `coat(top, base, thickness, absorption, ior)` weighs in the same way and dims what passes the
-/// layer twice, along the refracted directions: exp(-absorption thickness (1 / c + 1 / c')) on
-/// `base`, where c^2 = 1 - (1 - |wo.z|^2) / ior^2, c' alike for wi.
+/// `fresnel_mix(base, coat, ior)` and `coat(top, base, thickness, absorption, ior)`: of light along
+/// wo the coat reflects E and lets T = 1 - E through (materials/coat.h), both from outside the
+/// coat; E' and T' along wi. A `coat` dims what passes its layer twice, along the refracted
+/// directions: exp(-absorption thickness (1 / c + 1 / c')) on `base`, where c^2 = 1 - (1 -
+/// |wo.z|^2) / ior^2, c' alike for wi.
+///
+/// Where the index is above 1, and the coat made of `glossy`, `glossy_product`, `glossy_back`,
+/// `microfacet`, `beckmann`, metals and mirrors, one of them or what `mix`, `scale` and `add` make
+/// of several, each of its lobes gets
+///   coat: h(wo) h(wi)           (materials/coated.h), for its own E; for a delta E itself
+/// so that a white coat reflects E exactly. Of other lobes it is
+///   coat: min(F, F')            and s is 0: E = F
 ///
 /// Where the index is above 1, facets, `glossy` and `rough_matte` right below the coat get
-///   base: g(wo) g(wi)           (materials/coated.h), whose mean over the lobe is 1 - F
+///   base: g(wo) g(wi)           (materials/coated.h), whose mean over the lobe is T
+/// and Lambert's lobes, whatever the index,
+///   base: T T' / mean T         whose integral over wi is exactly T (Kelemen and Szirmay-Kalos
+///                               2001, where the coat is polished)
+/// so that a lossless base under a lossless coat is 1 in every direction: round facets, `glossy`
+/// and both mattes under any such coat within 3e-4, of `glossy` 1e-3; stretched facets in it within
+/// 3e-3, under it 5e-4. All other lobes get
+///   base: min(T, T')
+/// which never gains, as it is below T. All of these are symmetric. A specular coat over a Lambert
+/// base is 1 exactly; but near grazing a broad coat of which no more is known loses much: min(F,
+/// F') is small where F' is.
 ///
-/// Where it is above 1 and the coat polished, that is of mirrors alone, interfaces right below get
-/// what passes it once if light changes sides, twice if it stays outside, and never if it stays
-/// inside, along the directions outside; the same of the layer of a `coat`. The mirrors reflect the
-/// rest (materials/glass_coat.h), and seen from inside nothing else:
+/// Where a coat lies right under another, as plastic under varnish, and so on, T is the product of
+/// all coats above, and a lobe of a coat below others gets E of its coat times their T: g and h are
+/// then solved for (materials/under_coats.h), within 2e-3 of lobes that are not stretched.
+/// Stretched ones get min(T, T') of each coat. A coat whose index is 1 at every wavelength is not
+/// there.
+///
+/// Where the index is above 1 and the coat polished, that is of mirrors alone, interfaces right
+/// below get what passes it once if light changes sides, twice if it stays outside, and never if it
+/// stays inside, along the directions outside; the same of the layer of a `coat`. The mirrors
+/// reflect the rest (materials/glass_coat.h), and seen from inside nothing else:
 ///   base: T(outside), T T' / max(T, T', T(1)), or 1
 /// so that lossless glass is 1 from both sides: smooth 1e-5 (`dielectric`, `beckmann_dielectric`,
 /// `film_dielectric`, `phong_glass`, `refraction`), round facets of roughness from 0.1 1e-3, below
 /// it 3e-3, for indices of both between 1 and 4. Stretched facets never gain, and lose up to 0.04
 /// at anisotropy 0.5, 0.1 at 0.9, where a coat sends most back. Under rough coats, and
-/// `phong_glass` that is rough, interfaces get 1 - max(F, F') as if both directions were outside,
-/// and lose more.
-///
-/// All are symmetric. A lossless base under a lossless polished coat then has albedo 1 within 1e-4
-/// (stretched facets within 3e-4, beyond anisotropy 0.9 within 1e-3); under a coat of which no more
-/// is known it never exceeds 1, as min(F, F') <= F and 1 - max(F, F') <= 1 - F. A specular coat
-/// over a Lambert base is 1 exactly; but near grazing a broad coat loses much: min(F, F') is small
-/// where F' is.
-///
-/// Where the coat is `glossy`, `microfacet` or `beckmann`, or what `mix`, `scale` and `add` make of
-/// these and of mirrors, and the index above 1, what it reflects is known: with M(wo) the mean of
-/// F' over what it scatters (materials/coat_lobe.h) its factor is
-///   coat: (F + F') / 2          which reflects E(wo) = (F + M(wo)) / 2
-///   base: 1 - max(E, E')        or, for the Lambert lobes right below it,
-///         (1 - E)(1 - E') / (1 - mean F)   as the means of E and F are the same
-/// so that a white matte under such a white coat is 1 in every direction, within 1e-4; under
-/// stretched facets, within 3e-4.
-///
-/// Under a coat that is not stretched, facets that are round, `glossy` and `rough_matte` get
-/// g(wo) g(wi) for T = 1 - E there (materials/under_coats.h), within 1e-4. Stretched facets, and
-/// all of these under stretched ones, get 1 - max(E, E'), as under a mixture that is coloured.
-///
-/// Where a coat lies right under another, as plastic under varnish, its lobe gets what any does
-/// below the upper one, and S of what that lets through is left (materials/two_coats.h). If neither
-/// is stretched, and the lower one a single lobe or a mirror, what lies below both gets
-///   base: g(wo) g(wi) for T S   or, for the Lambert lobes, T S T' S' / mean (T S)
-/// and all is 1 within 1e-4. In other nests the Lambert lobes get, of the two coats nearest,
-///   base: T T' (1 - E)(1 - E') / mean (1 - F_above)(1 - F_below)
-/// which is never more than 1 and loses at most 1.3%, by a lower coat that is broad; `rough_matte`
-/// a share 1 - roughness / 4 of it, the rest of the other factor: the largest that never gains (by
-/// quadrature over index and roughness). A coat whose index is 1 at every wavelength is not there.
+/// `phong_glass` that is rough, interfaces get min(T, T') as if both directions were outside, and
+/// lose more.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`:
@@ -79,7 +70,6 @@
 #include "materials/layout.h"
 #include "materials/lobe.h"
 #include "materials/sheen.h"
-#include "materials/two_coats.h"
 #include "materials/under_coats.h"
 
 namespace mms::materials {
@@ -89,71 +79,39 @@ template <class R>
 struct NodeWeight {
   Spectrum<R> other{R(1)}, lambert{R(1)};
   Spectrum<R> glass{R(1)};  ///< for interfaces right below a polished coat
-  /// Where a coat is right above: what it lets through along wi, and the factor for lobes with a G
-  /// of materials/coated.h, times G G'.
-  Spectrum<R> through_i{}, coated{};
+  /// Without the coats that count together right above, and what these let through along wi.
+  Spectrum<R> bare{R(1)}, through_i{R(1)};
 
   /// The weight of a child that is a part of the node.
   NodeWeight operator*(const Spectrum<R>& part) const {
-    return {other * part, lambert * part, glass * part, through_i, coated * part};
+    return {other * part, lambert * part, glass * part, bare * part, through_i};
   }
 };
 
 namespace detail {
 
 template <class R>
-inline void weigh_fresnel_mix(const CoatAbove<R>& mix, const LowerCoat<R>& lower,
-                              const CoatAlong<R>& i, Vec3<R> wo, Vec3<R> wi, const R* ior_above,
+inline void weigh_fresnel_mix(const CoatAbove<R>& mix, Vec3<R> wo, Vec3<R> wi,
                               const NodeWeight<R>& w, NodeWeight<R>& base, NodeWeight<R>& coat) {
-  const CoatAlong<R>& o = mix.o;
-  const R cos_i = std::abs(wi.z);
-  const bool solved = mix.lower >= 0;
-  const Spectrum<R> left_i = solved ? lower.along(i, cos_i) : i.through;
-  R kept = 1, last_above = 0;
+  const CoatAlong<R>&o = mix.o, i(mix.numbers, std::abs(wi.z));
   Spectrum<R> reflects;
-  for_each_index(mix.ior, [&](int j, bool repeated) {
-    const R eta = relative_eta(mix.ior[j], Vec3<R>{0, 0, 1});
-    const R above = ior_above ? relative_eta(ior_above[j], Vec3<R>{0, 0, 1}) : R(0);
-    const bool both = above > 1 && eta > 1;
-    if (solved && both)
-      kept = lower.mean(j);
-    else if (!repeated || above != last_above)
-      kept = mean_through(eta, above);
-    last_above = above;
-    const R left = mix.left_o[j] * left_i[j];
-    reflects[j] = mix.kind.known() && eta > 1 ? (o.reflected[j] + i.reflected[j]) / 2
-                                              : std::min(o.reflected[j], i.reflected[j]);
+  for (int j = 0; j < kWavelengths; ++j) {
+    const R eta = mix.numbers.eta[j];
+    base.bare[j] = mix.nested[j] ? w.bare[j] : w.other[j];
+    base.through_i[j] = mix.nested[j] ? w.through_i[j] * i.through[j] : i.through[j];
     base.other[j] = w.other[j] * std::min(o.through[j], i.through[j]);
+    const R both = mix.through_o[j] * base.through_i[j];
+    base.lambert[j] = mix.mean[j] > 0 ? base.bare[j] * both / mix.mean[j] : R(0);
+    base.glass[j] = base.other[j];
+    // Lobes that are known get their factor themselves.
+    reflects[j] = mix.kind.known && eta > 1 ? R(1) : std::min(o.reflected[j], i.reflected[j]);
     if (mix.over_glass && eta > 1) {
       reflects[j] = mix.mirrored[j];
       base.glass[j] =
           w.other[j] * glass_factor(wo.z > 0, wi.z > 0, o.through[j], i.through[j], eta);
-    } else {
-      base.glass[j] = base.other[j];
     }
-    // Elsewhere the factor of a mix above stays in its bounded form: w.other, not w.lambert.
-    base.lambert[j] = kept > 0 ? (both ? w.coated[j] : w.other[j]) * left / kept : R(0);
-    base.coated[j] = (solved && both ? w.coated[j] : w.other[j]) * left;
-    base.through_i[j] = (solved && both ? w.through_i[j] : R(1)) * left_i[j];
-  });
-  coat = w * reflects;
-}
-
-/// Roughly how a coat splits what comes along `cos_o`.
-template <class R>
-inline void choose_fresnel_mix(const R* ior, const CoatKind<R>& kind, R cos_o,
-                               Spectrum<R>& reflected, Spectrum<R>& transmitted) {
-  const InterfaceSplits<R> s(ior, Vec3<R>{0, 0, 1}, cos_o);
-  reflected = s.reflected;
-  transmitted = s.transmitted;
-  if (!kind.known()) return;
-  for (int j = 0; j < kWavelengths; ++j) {
-    const R eta = relative_eta(ior[j], Vec3<R>{0, 0, 1});
-    if (!(eta > 1)) continue;
-    const R mean = fresnel_dielectric_diffuse(eta);
-    reflected[j] = (reflected[j] + mean) / 2;
-    transmitted[j] = (transmitted[j] + 1 - mean) / 2;
   }
+  coat = w * reflects;
 }
 
 /// What the `layer` of that node leaves to its base.
@@ -180,8 +138,7 @@ struct LayerLeaves {
 /// Factors for the pair of directions, for every node.
 template <class R>
 inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove<R>>& coats,
-                  const SolvedPerNode<LowerCoat<R>>& lower, Vec3<R> wo, Vec3<R> wi, Mode mode,
-                  PerNode<NodeWeight<R>>& weights) {
+                  Vec3<R> wo, Vec3<R> wi, Mode mode, PerNode<NodeWeight<R>>& weights) {
   const auto nodes = layout.nodes();
   const R cos_o = std::abs(wo.z), cos_i = std::abs(wi.z);
   const auto under_coat = [&](int i, int base, const R* ior, NodeWeight<R>& of_base,
@@ -192,9 +149,7 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
       of_coat = weights.of[i] * Spectrum<R>();
       return;
     }
-    detail::weigh_fresnel_mix(coat, lower[base],
-                              detail::coat_along(layout, params, coat.ior, coat.kind, wi), wo, wi,
-                              coats.of[i].ior, weights.of[i], of_base, of_coat);
+    detail::weigh_fresnel_mix(coat, wo, wi, weights.of[i], of_base, of_coat);
   };
   auto& w = weights.of;
   w[nodes.size() - 1] = NodeWeight<R>{};
@@ -207,11 +162,11 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
       case Lobe::Layer: {
         const detail::LayerLeaves<R> left(layout, params, node);
         w[a] = w[i] * Spectrum<R>(left.weight);
-        if (left.fibres)
-          w[b] = {w[i].other * left.along(mode == Mode::Radiance ? cos_o : cos_i),
-                  w[i].other * left.lambert(cos_o, cos_i)};
-        else
-          w[b] = w[i] * Spectrum<R>(1 - left.weight);
+        w[b] = w[i] * Spectrum<R>(1 - left.weight);
+        if (left.fibres) {
+          w[b].other = w[i].other * left.along(mode == Mode::Radiance ? cos_o : cos_i);
+          w[b].lambert = w[i].other * left.lambert(cos_o, cos_i);
+        }
         break;
       }
       case Lobe::FresnelMix:
@@ -224,7 +179,7 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
                   along_i = detail::layer_transmittance(p, j, cos_i);
           w[b].other[j] *= along_o * along_i;
           w[b].lambert[j] *= along_o * along_i;
-          w[b].coated[j] *= along_o * along_i;
+          w[b].bare[j] *= along_o * along_i;
           w[b].glass[j] *= (wo.z > 0 ? along_o : R(1)) * (wi.z > 0 ? along_i : R(1));
         }
         break;
@@ -234,40 +189,106 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
   }
 }
 
-/// Whether materials/under_coats.h is asked for a lobe under that coat.
+/// The factor for deltas that reflect, from that of their node.
 template <class R>
-inline bool solved_under(const CoatAbove<R>& coat, const CoatedLobe<R>& lobe) {
-  return (coat.kind.round || coat.lower >= 0) && !lobe.stretched();
+inline Spectrum<R> delta_weight(const Spectrum<R>& other, const PerNode<CoatAbove<R>>& coats,
+                                const CoatAbove<R>& above, R cosine) {
+  if (above.part_of < 0) return other;
+  const CoatNumbers<R>& coat = coats.of[above.part_of].numbers;
+  Spectrum<R> f = other;
+  for (int j = 0; j < kWavelengths; ++j)
+    if (coat.eta[j] > 1)
+      f[j] *= coat.of(j, {}).split(std::min(std::abs(cosine), R(1)), coat.eta[j]).reflected;
+  return f;
 }
 
-/// The factor for a lobe right below a coat, from those of its node; `o` and `i` are the lobe along
-/// the two directions, `under` what is solved for it.
+/// Whether at wavelength j the coats above a known lobe count together, with what it is a part of.
 template <class R>
-inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const CoatAbove<R>& coat,
-                                 const SolvedPerNode<LowerCoat<R>>& lower,
-                                 const UnderCoats<R>& under, const CoatedLobe<R>& o,
-                                 const CoatedLobe<R>& i, R cos_o, R cos_i) {
-  const bool solved = solved_under(coat, o);
-  if ((coat.kind.known() || coat.lower >= 0) && !solved) return w.other;  // no more is known
-  cos_o = std::min(std::abs(cos_o), R(1));
-  cos_i = std::min(std::abs(cos_i), R(1));
-  typename UnderCoats<R>::Along along_o, along_i;
-  if (solved) along_o = under.along(cos_o), along_i = under.along(cos_i);
-  Spectrum<R> f;
-  R scale = 0;
-  for_each_index(coat.ior, [&](int j, bool repeated) {
-    const R eta = relative_eta(coat.ior[j], Vec3<R>{0, 0, 1});
-    const bool known = coat.lower >= 0 ? lower[coat.lower].known(j) : eta > 1;
-    if (known && !(repeated && coat.lower < 0)) {
-      const R of_o = solved ? under.mean_squared(j, along_o, coat.through_o[j])
-                            : o.mean_squared(eta, cos_o, coat.through_o[j]);
-      const R of_i = solved ? under.mean_squared(j, along_i, w.through_i[j])
-                            : i.mean_squared(eta, cos_i, w.through_i[j]);
-      const R both = std::sqrt(of_o) * std::sqrt(of_i);
-      scale = both > std::numeric_limits<R>::min() ? 1 / both : R(0);
+inline bool counts_together(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above, int j) {
+  return above.ior && above.numbers.eta[j] > 1 &&
+         (above.part_of < 0 || coats.of[above.part_of].numbers.eta[j] > 1);
+}
+
+/// G^2 of a lobe below several coats, or as a part of a lower one, as the product of what it is for
+/// each alone: of first order in what they vary, which below the first coat is little
+/// (materials/coat.h).
+template <class R>
+inline R squared_of_each(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
+                         const CoatedLobe<R>& lobe, int j, R z) {
+  R squared = 1;
+  if (above.part_of >= 0) {
+    const CoatNumbers<R>& coat = coats.of[above.part_of].numbers;
+    const R eta = coat.eta[j];
+    const CoatShape<R> alone(lobe.broad, coat.mean[j]), below = coat.of(j, lobe.broad);
+    const R rise = alone.rise(eta), varies = rise > 0 ? below.rise(eta) / rise : R(1);
+    squared = lobe.as_coat(eta, z, below.split(z, eta).reflected, varies);
+  }
+  for (int at = above.base; at >= 0;) {
+    const CoatAbove<R>& one = coats.of[at];
+    squared *= lobe.below(one.numbers.eta[j], one.numbers.shape[j], z,
+                          one.numbers.split(j, z).transmitted);
+    at = one.nested[j] ? one.upper : -1;
+  }
+  return squared;
+}
+
+/// The same, from what is solved for round lobes: for stretched ones, as much more as the product
+/// is of them.
+template <class R>
+inline R squared_of_several(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
+                            const UnderCoats<R>* under, const typename UnderCoats<R>::Along& along,
+                            const CoatedLobe<R>& lobe, int j, R z, R through, R reflected) {
+  if (!under) return squared_of_each(coats, above, lobe, j, z);
+  const R solved = under->squared(j, along, through, reflected);
+  if (!lobe.stretched()) return solved;
+  const R round = squared_of_each(coats, above, lobe.round(), j, z);
+  return round > 0 ? solved * (squared_of_each(coats, above, lobe, j, z) / round) : R(0);
+}
+
+/// g of materials/coated.h along a direction of |cosine| `z`, of a lobe that is known below a coat
+/// or as a part of one; 1 where no more is known. `through` is what the coats above that count
+/// together let through there, `under` what is solved for the lobe where they are several.
+template <class R>
+inline Spectrum<R> coated_scaling(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
+                                  const UnderCoats<R>* under, const CoatedLobe<R>& lobe, R z,
+                                  const Spectrum<R>& through) {
+  z = std::min(std::abs(z), R(1));
+  const bool part = above.part_of >= 0;
+  const CoatNumbers<R>& coat = part ? coats.of[above.part_of].numbers : above.numbers;
+  typename UnderCoats<R>::Along along;
+  if (under) along = under->along(z);
+  Spectrum<R> g{R(1)};
+  bool alone = false;  // the coat was all that matters, at the wavelength before
+  for (int j = 0; j < kWavelengths; ++j) {
+    const R eta = coat.eta[j], t = through[j];
+    const bool together = counts_together(coats, above, j);
+    const bool several = part ? together : above.nested[j];
+    const bool known = part ? eta > 1 : together;
+    if (known && !several && alone && coat.repeated(j)) {
+      g[j] = g[j - 1];
+      continue;
     }
-    f[j] = known ? scale * w.coated[j] : w.other[j];
-  });
+    alone = known && !several;
+    if (!known) continue;
+    const CoatShape<R> shape = part ? coat.of(j, lobe.broad) : coat.shape[j];
+    const R e = part ? shape.split(z, eta).reflected : R(1);
+    const R squared = several ? squared_of_several(coats, above, under, along, lobe, j, z, t, e)
+                      : part  ? lobe.as_coat(eta, z, e)
+                              : lobe.below(eta, shape, z, t);
+    g[j] = squared > 0 ? (several || !part ? e * t : e) / std::sqrt(squared) : R(0);
+  }
+  return g;
+}
+
+/// The factor for such a lobe, from those of its node and g along wo.
+template <class R>
+inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const PerNode<CoatAbove<R>>& coats,
+                                 const CoatAbove<R>& above, const UnderCoats<R>* under,
+                                 const CoatedLobe<R>& lobe_i, R cos_i, const Spectrum<R>& g_o) {
+  const Spectrum<R> g_i = coated_scaling(coats, above, under, lobe_i, cos_i, w.through_i);
+  Spectrum<R> f;
+  for (int j = 0; j < kWavelengths; ++j)
+    f[j] = (counts_together(coats, above, j) ? w.bare[j] : w.other[j]) * (g_o[j] * g_i[j]);
   return f;
 }
 
@@ -279,15 +300,18 @@ inline void weigh_for_choice(const Layout& layout, const R* params, Vec3<R> wo,
                              const std::type_identity_t<PerNode<CoatAbove<R>>>* coats,
                              PerNode<Spectrum<R>>& weights) {
   const R cos_o = std::abs(wo.z);
-  const auto split = [&](const R* ior, int base, int coat, Spectrum<R>& reflected,
-                         Spectrum<R>& transmitted) {
+  const auto split = [&](const R* ior, int base, Spectrum<R>& reflected, Spectrum<R>& transmitted) {
     const CoatAbove<R>* above = coats ? &coats->of[base] : nullptr;
-    if (above && above->ior == ior && above->over_glass) {
+    if (!above || above->ior != ior) {
+      const InterfaceSplits<R> s(ior, Vec3<R>{0, 0, 1}, cos_o);
+      reflected = s.reflected;
+      transmitted = s.transmitted;
+    } else if (above->over_glass) {
       reflected = above->mirrored;
       transmitted = Spectrum<R>::map([](R r) { return std::max(1 - r, R(0)); }, reflected);
     } else {
-      detail::choose_fresnel_mix(ior, detail::coat_kind(layout, params, coat), cos_o, reflected,
-                                 transmitted);
+      reflected = above->o.reflected;
+      transmitted = above->o.through;
     }
   };
   const auto nodes = layout.nodes();
@@ -307,14 +331,14 @@ inline void weigh_for_choice(const Layout& layout, const R* params, Vec3<R> wo,
       }
       case Lobe::FresnelMix: {
         Spectrum<R> reflected, transmitted;
-        split(p, a, b, reflected, transmitted);
+        split(p, a, reflected, transmitted);
         w[a] = w[i] * transmitted;
         w[b] = w[i] * reflected;
         break;
       }
       case Lobe::Coat: {
         Spectrum<R> reflected, transmitted;
-        split(p + 1 + kWavelengths, b, a, reflected, transmitted);
+        split(p + 1 + kWavelengths, b, reflected, transmitted);
         w[a] = w[i] * reflected;
         w[b] = w[i] * transmitted;
         // Light inside that stays there never meets the layer.

@@ -11,14 +11,15 @@
 ///   shadow(w)             |w.z| Lambda(w): finite at grazing angles
 ///   sample_visible(wo, u1, u2)  a normal that `wo` (z > 0) sees
 ///   tables(), interface() what multiple scattering needs (materials/energy.h)
-///   coat(), coated()      the same of coats, and of what lies below one (materials/coat_lobe.h,
-///                         materials/coated.h)
+///   coated()              the same of coats and of what lies below one (materials/coated.h)
 
-#include "materials/coated.h"
 #include "materials/energy.h"
 #include "materials/lobe.h"
 
 namespace mms::materials {
+
+struct CoatedTables;
+extern const CoatedTables kGgxCoated, kBeckmannCoated;
 
 /// Below this alpha the lobe is a mirror. Rounding a direction in float moves it by about 1e-7
 /// rad, so that at alpha = 1e-4 f already carries a relative error near 2e-3 where it is steepest.
@@ -77,7 +78,6 @@ struct Ggx : Alpha<R> {
 
   static const FacetTables& tables() { return kGgxTables; }
   static const InterfaceTables& interface() { return kGgxInterface; }
-  static const CoatTables& coat() { return kGgxCoat; }
   static const CoatedTables& coated() { return kGgxCoated; }
 };
 
@@ -127,7 +127,6 @@ struct Beckmann : Alpha<R> {
 
   static const FacetTables& tables() { return kBeckmannTables; }
   static const InterfaceTables& interface() { return kBeckmannInterface; }
-  static const CoatTables& coat() { return kBeckmannCoat; }
   static const CoatedTables& coated() { return kBeckmannCoated; }
 
  private:

@@ -5,6 +5,7 @@
 /// Reflection by microfacets. What facets send on to other facets is given back by a second, broad
 /// lobe (materials/energy.h): a white surface has albedo 1 at every roughness.
 
+#include "materials/coated.h"
 #include "materials/facets.h"
 #include "materials/specular.h"
 
@@ -46,7 +47,6 @@ struct RoughReflection {
   bool specular() const { return facets.specular(); }
   FacetLoss<R> loss() const { return {&facets.tables(), facets.ax, facets.ay}; }
   BounceSampling<R> bounces() const { return {facets.ax * facets.ay}; }
-  CoatLobe<R> coat() const { return CoatLobe<R>::facets(facets.coat(), facets.ax, facets.ay); }
   CoatedLobe<R> coated(Vec3<R> w) const {
     return CoatedLobe<R>::facets(facets.coated(), facets.ax, facets.ay, w);
   }

@@ -78,8 +78,6 @@ struct RoughMatte {
 
   static constexpr bool specular() { return false; }
   Spectrum<R> estimate(Vec3<R>) const { return colour; }
-  /// See detail::lambert_share of materials/bsdf.h.
-  R lambert_share() const { return 1 - r / 4; }
   CoatedLobe<R> coated(Vec3<R>) const { return CoatedLobe<R>::matte(r); }
 
   /// 1 - albedo of one bounce on white, over r a: c1 - G / pi, G = s (theta - s c + 2/3 (c (1 + s +

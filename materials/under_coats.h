@@ -2,101 +2,218 @@
 #pragma once
 
 /// \file
-/// What lobes are scaled by under one rough coat, and under two of any kind. White facets, `glossy`
-/// and `rough_matte` below a white `glossy`, `microfacet` or `beckmann`, none of them stretched,
-/// keep their energy within 1e-4, for indices from 1.02 to 4 (next to a mirror, of a roughness
-/// below 0.1, 1e-3; above 4, 2e-3).
+/// Lobes below several coats, one right under the other, and the lobes of such coats: G of
+/// materials/coated.h where what is to be reflected is a product, the T of all coats above, times E
+/// of the coat that the lobe is a part of, if it is. That is no table's, and so is solved for, once
+/// for all directions: at few of them, with K as a matrix and polynomials between. White facets,
+/// `glossy` and `rough_matte`, none of them stretched, keep their energy within 1e-4, for indices
+/// from 1.02 to 4 (next to a mirror, of a roughness below 0.1, 1e-3; above 4, 2e-3).
 
 #include <algorithm>
 #include <array>
-#include <span>
+#include <cmath>
+#include <numbers>
 
+#include "base/spectrum.h"
+#include "base/warp.h"
+#include "materials/coat.h"
 #include "materials/coated.h"
 #include "materials/lobe.h"
-#include "materials/rough_coat.h"
-#include "materials/two_coats.h"
 
 namespace mms::materials {
+
+/// Chebyshev's points on [0, 1], where polynomials over axes::spread_direction are known.
+template <class R>
+struct SpreadPoints {
+  R place[axes::kSpread], weight[axes::kSpread];  ///< the weights are of the barycentric form
+
+  SpreadPoints() {
+    constexpr int last = axes::kSpread - 1;
+    for (int k = 0; k <= last; ++k) {
+      const R s = std::sin(kPi<R> / 2 * R(k) / R(last));
+      place[k] = s * s;
+      weight[k] = R(k % 2 ? -1 : 1) * (k == 0 || k == last ? R(0.5) : R(1));
+    }
+  }
+  static const SpreadPoints& get() {
+    static const SpreadPoints points;
+    return points;
+  }
+
+  /// What a polynomial's values at the points are multiplied with for its value at `x`.
+  std::array<R, axes::kSpread> weights_at(R x) const {
+    std::array<R, axes::kSpread> to;
+    R sum = 0;
+    for (int k = 0; k < axes::kSpread; ++k) {
+      const R d = x - place[k];
+      to[k] = weight[k] / (d == 0 ? R(1e-20) : d);
+      sum += to[k];
+    }
+    for (R& w : to) w /= sum;
+    return to;
+  }
+};
+
+/// What lies above a lobe, the nearest first. All that is solved for depends on these.
+template <class R>
+struct Coats {
+  static constexpr int kMost = 6;
+  std::array<CoatNumbers<R>, kMost> of;
+  int count = 0;
+  /// The first is the coat that the lobe is a part of, as that lobe alone.
+  bool reflects = false;
+
+  void add(const CoatNumbers<R>& coat) { of[count++] = coat; }
+  bool operator==(const Coats& b) const {
+    return count == b.count && reflects == b.reflects &&
+           std::equal(of.begin(), of.begin() + count, b.of.begin());
+  }
+  /// Whether wavelength j is as the one before.
+  bool repeated(int j) const {
+    return std::all_of(of.begin(), of.begin() + count,
+                       [j](const CoatNumbers<R>& c) { return c.repeated(j); });
+  }
+  /// Whether there is something to solve for.
+  bool known(int j) const { return of[0].eta[j] > 1; }
+  /// What the lobe is to reflect along a direction of |cosine| `z`: T, of all coats up to one whose
+  /// index is not above 1, or T E.
+  R through(int j, R z) const {
+    R t = 1;
+    for (int k = reflects; k < count && of[k].eta[j] > 1; ++k) t *= of[k].split(j, z).transmitted;
+    return t;
+  }
+  R reflected(int j, R z) const { return reflects ? of[0].split(j, z).reflected : R(1); }
+};
+
+/// A lobe's matrix, of its width.
+template <class R>
+struct SpreadMatrix {
+  static constexpr int kDirections = axes::kSpread;
+  using Values = std::array<R, kDirections>;
+  std::array<Values, CoatedTables::kColumns> rows{};  ///< as in CoatedTables::spread
+
+  explicit SpreadMatrix(const CoatedLobe<R>& lobe) {
+    constexpr int n0 = CoatedTables::kColumns * kDirections;
+    for (int q = 0; q < 4; ++q) {
+      const float* p = lobe.tables->spread + (lobe.width.first + q) * n0;
+      for (int k = 0; k < CoatedTables::kColumns; ++k)
+        for (int j = 0; j < kDirections; ++j)
+          rows[k][j] += lobe.width.weight[q] * R(p[k * kDirections + j]);
+    }
+  }
+
+  R cosine(int k) const { return limited(rows[kDirections][k], R(0), R(1)); }
+
+  /// int K `of` |cos i| di along the directions.
+  Values mean(const Values& of) const {
+    Values sum{};
+    for (int k = 0; k < kDirections; ++k)
+      for (int j = 0; j < kDirections; ++j) sum[j] += rows[k][j] * of[k];
+    return sum;
+  }
+};
+
+/// By a power of what is still wrong, an eigenvalue l of K in [0, 1] leaves 1 - power (1 + l) of
+/// its error. Two powers in turn are the best of two (Chebyshev), a seventeenth at most.
+template <class R>
+inline constexpr R kScalingPowers[] = {1 / (R(1.5) + std::numbers::sqrt2_v<R> / 4),
+                                       1 / (R(1.5) - std::numbers::sqrt2_v<R> / 4)};
+
+/// G of materials/coated.h for a lobe that is to reflect `share`, by powers of what is still wrong
+/// (Knight, Ruiz and Ucar 2014), of first order. Four steps leave less than 1e-4 where T is to be
+/// reflected, twelve of E.
+template <class R>
+inline typename SpreadMatrix<R>::Values scaled(const SpreadMatrix<R>& matrix,
+                                               const typename SpreadMatrix<R>::Values& share,
+                                               int steps) {
+  using Values = typename SpreadMatrix<R>::Values;
+  Values g = share, mean;
+  const auto spread = [&] {
+    mean = matrix.mean(g);
+    for (R& m : mean) m = std::max(m, R(1e-6));
+  };
+  const int n = int(g.size());
+  spread();
+  for (int k = 0; k < n; ++k) g[k] = share[k] / std::sqrt(mean[k]);
+  spread();
+  for (int step = 0; step < steps; ++step) {
+    for (int k = 0; k < n; ++k)  // along the surface nothing may pass
+      if (g[k] > 0)
+        g[k] *=
+            std::max(1 + kScalingPowers<R>[step % 2] * (share[k] / (g[k] * mean[k]) - 1), R(0.2));
+    spread();
+  }
+  return mean;
+}
 
 /// G of a lobe that is not stretched.
 template <class R>
 class UnderCoats {
-  static constexpr int kMost = kWavelengths, kNear = FewIndices<R>::kMost;
   using Values = typename SpreadMatrix<R>::Values;
 
  public:
-  /// For the wavelengths of which all indices are above 1. `lower` is solved for two coats, and
-  /// null for one.
-  void solve(const CoatedLobe<R>& base, const Coats<R>& coats, const LowerCoat<R>* lower) {
-    base_ = base;
+  /// For the wavelengths at which the nearest index is above 1.
+  void solve(const CoatedLobe<R>& lobe, const Coats<R>& coats) {
+    lobe_ = lobe;
     coats_ = coats;
-    lower ? solve_two(*lower) : solve_one();
+    count_ = 0;
+    const SpreadMatrix<R> matrix(lobe);
+    for (int j = 0; j < kWavelengths; ++j) {
+      at_[j] = std::max(count_ - 1, 0);
+      if (!coats.known(j) || (count_ > 0 && coats.repeated(j))) continue;
+      at_[j] = count_++;
+      Values through, reflected;
+      for (int k = 0; k < axes::kSpread; ++k) {
+        const R z = matrix.cosine(k);
+        through[k] = coats.through(j, z);
+        reflected[k] = through[k] * coats.reflected(j, z);
+      }
+      const Values below = scaled(matrix, through, 4);
+      Values& above = above_[at_[j]];
+      for (int k = 0; k < axes::kSpread; ++k) above[k] = below[k] * below[k] - through[k];
+      if (!coats.reflects) continue;
+      const Values part = scaled(matrix, reflected, 12);
+      Values& quotient = quotient_[at_[j]];
+      for (int k = 0; k < axes::kSpread; ++k)
+        quotient[k] =
+            2 * std::log(part[k] / below[k]) - std::log(coats.reflected(j, matrix.cosine(k)));
+    }
   }
-  bool solves(const CoatedLobe<R>& base, const Coats<R>& coats, const LowerCoat<R>*) const {
-    return base.is_like(base_) && coats == coats_;
+  bool solves(const CoatedLobe<R>& lobe, const Coats<R>& coats) const {
+    return lobe.is_like(lobe_) && coats == coats_;
   }
 
-  /// What `mean_squared` takes of a direction of |cosine| `z`.
-  using Along = std::array<R, kMost + kNear - 1>;
+  /// What `squared` takes of a direction of |cosine| `z`.
+  struct Along {
+    std::array<R, kWavelengths> above{}, quotient{};
+  };
   Along along(R z) const {
     const Values weights =
-        SpreadPoints<R>::get().weights_at(axes::spread_direction(z, base_.cosines));
-    Along above{};
+        SpreadPoints<R>::get().weights_at(axes::spread_direction(z, lobe_.cosines));
+    Along along;
     for (int n = 0; n < count_; ++n)
-      for (int k = 0; k < axes::kSpread; ++k) above[n] += weights[k] * above_[n][k];
-    return above;
+      for (int k = 0; k < axes::kSpread; ++k) {
+        along.above[n] += weights[k] * above_[n][k];
+        if (coats_.reflects) along.quotient[n] += weights[k] * quotient_[n][k];
+      }
+    return along;
   }
 
-  /// G^2 of wavelength j, for T = `through` along the direction.
-  R mean_squared(int j, const Along& along, R through) const {
-    R sum = through;
-    for (int n = 0; n < kNear; ++n) sum += weight_[j][n] * along[near_[j] + n];
-    return std::max(sum, through / 2);
+  /// G^2 of wavelength j along the direction, for T = `through` and, of a part of a coat, E =
+  /// `reflected`.
+  R squared(int j, const Along& along, R through, R reflected = 1) const {
+    const R below = std::max(through + along.above[at_[j]], through / 2);
+    if (!coats_.reflects) return below;
+    return below * reflected * std::exp(limited(along.quotient[at_[j]], R(-20), R(40)));
   }
 
  private:
-  void solve_one() {
-    const FewIndices<R> few(coats_.above_ior.data());
-    near_.fill(0);
-    weight_ = few.weight;
-    solve(few.count, [&](int n, const SpreadMatrix<R>& matrix) {
-      return let_through(coats_.above.span(), few.place[n], matrix);
-    });
-  }
-
-  void solve_two(const LowerCoat<R>& lower) {
-    int at[kMost], count = 0;
-    for (int j = 0; j < kWavelengths; ++j) {
-      const int first = lower.first_like(j);
-      weight_[j] = {R(1)};
-      near_[j] = 0;
-      if (!lower.known(j)) continue;
-      if (first == j) at[count++] = j;
-      near_[j] = first == j ? count - 1 : near_[first];
-    }
-    solve(count,
-          [&](int n, const SpreadMatrix<R>& matrix) { return lower.through_both(at[n], matrix); });
-  }
-
-  template <class Through>
-  void solve(int count, const Through& through_of) {
-    count_ = count;
-    if (count == 0) return;
-    const SpreadMatrix<R> matrix(base_);
-    for (int n = 0; n < count; ++n) {
-      const Values through = through_of(n, matrix);
-      const Scaling<R> scaled(matrix, through);
-      for (int k = 0; k < axes::kSpread; ++k)
-        above_[n][k] = scaled.mean[k] * scaled.mean[k] - through[k];
-    }
-  }
-
-  CoatedLobe<R> base_;
+  CoatedLobe<R> lobe_;
   Coats<R> coats_;
-  int count_;                                              ///< of solutions
-  Values above_[kMost];                                    ///< G^2 - T at the points
-  std::array<int, kWavelengths> near_;                     ///< the first solution of a wavelength
-  std::array<std::array<R, kNear>, kWavelengths> weight_;  ///< of that and the next
+  int count_;                           ///< of solutions
+  Values above_[kWavelengths];          ///< G^2 - T at the points
+  Values quotient_[kWavelengths];       ///< of a part of a coat: ln of G^2 / E over that without E
+  std::array<int, kWavelengths> at_{};  ///< the solution of a wavelength
 };
 
 }  // namespace mms::materials

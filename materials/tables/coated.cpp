@@ -1,43 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/coated.h and writes them as C++ to the named file: run by the
-// build, in two minutes of one core.
+// build, in seven minutes of one core.
 #include <cstdio>
 #include <string>
 #include <vector>
 
-#include "base/quadrature.h"
-#include "materials/rough_coat.h"
 #include "materials/tables/spread.h"
 
 namespace mms::materials::tables {
 namespace {
 
-void write_product(std::FILE* to) {
-  const Grid grid({axes::kCoatIndex, axes::kCoatIndex}, [](const double* x) {
-    const double a = index_at(x[0]), b = index_at(x[1]);
-    const auto product = [&](double u) {  // z = u^3: dense towards grazing
-      const double z = u * u * u;
-      return 6 * u * u * z * fresnel_dielectric(z, a) * fresnel_dielectric(z, b);
-    };
-    double sum = 0;
-    constexpr int kPanels = 64;
-    for (int k = 0; k < kPanels; ++k)
-      sum += integrate<8>(product, double(k) / kPanels, (k + 1.0) / kPanels);
-    return sum;
-  });
-  const Values spline = grid.spline();
-  write_numbers(to, "kFresnelProductTable", {spline.begin(), spline.end()});
-}
-
-/// `value(lobe, eta)` over all directions, for every lobe and index. Returns the table.
+/// `value(lobe, eta)` over all directions, for every lobe, by its number, and index. Returns the
+/// table.
 template <class Value>
-std::vector<float> write_lobes(std::FILE* to, const std::string& name,
-                               const std::vector<Spread>& lobes, const Value& value) {
+std::vector<float> write_lobes(std::FILE* to, const std::string& name, int count,
+                               const Value& value) {
   using namespace axes;
-  const int count = int(lobes.size());
   std::vector<Values> table(std::size_t(count) * kCoatIndex);
   parallel(int(table.size()), [&](int k) {
-    table[k] = value(lobes[k / kCoatIndex], index_at(double(k % kCoatIndex) / (kCoatIndex - 1)));
+    table[k] = value(k / kCoatIndex, index_at(double(k % kCoatIndex) / (kCoatIndex - 1)));
   });
   const Grid grid({count, kCoatIndex, kCoatDirection}, [&](const double* x) {
     const auto at = [](double u, int nodes) { return int(std::lround(u * (nodes - 1))); };
@@ -49,36 +30,33 @@ std::vector<float> write_lobes(std::FILE* to, const std::string& name,
   return numbers;
 }
 
-Values fresnel_along_all(double eta) {
-  Values f(kNodes);
-  for (int o = 0; o < kNodes; ++o) f[o] = fresnel_dielectric(directions().z[o], eta);
-  return f;
+CoatShares shares(double eta, const Broadness<double>& broad) {
+  return {kNodes, [](int o) { return directions().z[o]; }, eta, broad};
 }
 
-/// Fresnel's mean over what the lobe scatters, less what it is at the direction itself.
+/// CoatedTables::coat; `broad(place)` along the axis of widths.
+template <class Broad>
 std::vector<float> write_coat(std::FILE* to, const std::string& name,
-                              const std::vector<Spread>& lobes) {
-  return write_lobes(to, name + "CoatTable", lobes, [](const Spread& lobe, double eta) {
-    const Values f = fresnel_along_all(eta);
-    Values mean = lobe.mean(f);
-    for (int o = 0; o < kNodes; ++o) mean[o] -= f[o];
-    return mean;
+                              const std::vector<Spread>& lobes, const Broad& broad) {
+  const int count = int(lobes.size());
+  return write_lobes(to, name + "CoatTable", count, [&](int k, double eta) {
+    return scaled_coat(lobes[k], shares(eta, broad(double(k) / (count - 1))).reflected);
   });
 }
 
-/// G^2 - T.
-std::vector<float> write_coated(std::FILE* to, const std::string& name,
-                                const std::vector<Spread>& lobes) {
-  return write_lobes(to, name + "CoatedTable", lobes, [](const Spread& lobe, double eta) {
-    Values through(kNodes);
-    for (int o = 0; o < kNodes; ++o) through[o] = fresnel_split(directions().z[o], eta).transmitted;
-    Values above = scaled_mean(lobe, through);
-    for (int o = 0; o < kNodes; ++o) above[o] = above[o] * above[o] - through[o];
-    return above;
-  });
+/// CoatedTables::under.
+std::vector<std::vector<float>> write_under(std::FILE* to, const std::string& name,
+                                            const std::vector<Spread>& lobes) {
+  std::vector<std::vector<float>> tables;
+  for (const double s : axes::kHeld)
+    tables.push_back(write_lobes(to, name + "UnderTable" + std::to_string(tables.size()),
+                                 int(lobes.size()), [&](int k, double eta) {
+                                   return scaled_below(lobes[k], shares(eta, {s, 0}).through);
+                                 }));
+  return tables;
 }
 
-/// The columns of a lobe's matrix, of cosines, of places and of means.
+/// The columns of a lobe's matrix, and of cosines.
 Values spread_columns(const Spread& lobe, double width) {
   constexpr int kDirections = axes::kSpread;
   const auto& points = SpreadPoints<double>::get();
@@ -90,22 +68,11 @@ Values spread_columns(const Spread& lobe, double width) {
   }
   const auto axis = [&](double z, double) { return axes::spread_direction(z, width); };
   double* cosines = &columns[kDirections * kDirections];
-  double *places = cosines + kDirections, *means = places + kDirections;
-  for (int k = 0; k < kDirections; ++k) {
-    cosines[k] = cosine(points.place[k], axis);
-    places[k] = axes::coat_direction(cosines[k]);
-  }
+  for (int k = 0; k < kDirections; ++k) cosines[k] = cosine(points.place[k], axis);
   for (int k = 0; k < kDirections; ++k) {
     const Values mean = lobe.mean(polynomial[k]);
     for (int j = 0; j < kDirections; ++j)
-      columns[k * kDirections + j] = Place(places[j]).value(mean);
-  }
-  const auto& rule = gauss<8>();
-  for (int n = 0; n < 8 * kNodes; ++n) {  // z = u^4: dense towards grazing
-    const double u = (n / 8 + rule.x[n % 8]) / kNodes, z = u * u * u * u;
-    const auto weights = points.weights_at(axes::spread_direction(z, width));
-    for (int k = 0; k < kDirections; ++k)
-      means[k] += weights[k] * 8 * std::pow(u, 7) * rule.w[n % 8] / kNodes;
+      columns[k * kDirections + j] = Place::of(cosines[j]).value(mean);
   }
   return columns;
 }
@@ -137,10 +104,16 @@ std::vector<Spread> facet_lobes() {
 /// As a coat and under one.
 template <template <class> class Distribution>
 void write_facets(std::FILE* to, const std::string& name, const std::vector<Spread>& lobes) {
-  const auto coat = write_coat(to, name, lobes), coated = write_coated(to, name, lobes);
-  const StretchedTables stretched = stretched_coats<Distribution>(coat.data(), coated.data());
+  const auto coat = write_coat(
+      to, name, lobes, [](double place) { return Broadness<double>::facets(alpha_at(place)); });
+  const auto under = write_under(to, name, lobes);
+  CoatedTables round{};
+  round.coat = coat.data();
+  for (std::size_t k = 0; k < under.size(); ++k) round.under[k] = under[k].data();
+  const StretchedTables stretched = stretched_coats<Distribution>(round);
   write_numbers(to, name + "StretchedCoatTable", stretched.coat, 4);
-  write_numbers(to, name + "StretchedCoatedTable", stretched.coated, 4);
+  for (std::size_t k = 0; k < stretched.under.size(); ++k)
+    write_numbers(to, name + "StretchedUnderTable" + std::to_string(k), stretched.under[k], 4);
 }
 
 }  // namespace
@@ -156,14 +129,14 @@ int main(int argc, char** argv) {
     const auto matte = lobes(kCoatedMatte, [](double x) { return matte_lobe(x); });
     write_facets<Ggx>(to, "kGgx", ggx);
     write_facets<Beckmann>(to, "kBeckmann", beckmann);
-    write_coat(to, "kGlossy", glossy);
-    write_coated(to, "kGlossy", glossy);
-    write_coated(to, "kMatte", matte);
+    write_coat(to, "kGlossy", glossy,
+               [](double x) { return Broadness<double>::glossy(gloss_at(x)); });
+    write_under(to, "kGlossy", glossy);
+    write_under(to, "kMatte", matte);
     const auto facet_width = [](double place) { return width(alpha_at(place)); };
     write_spread(to, "kGgx", ggx, facet_width);
     write_spread(to, "kBeckmann", beckmann, facet_width);
     write_spread(to, "kGlossy", glossy, [](double place) { return gloss_width(gloss_at(place)); });
     write_spread(to, "kMatte", matte, [](double) { return 1.0; });
-    write_product(to);
   });
 }

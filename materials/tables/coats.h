@@ -8,7 +8,9 @@
 #include <cmath>
 #include <vector>
 
+#include "materials/coat.h"
 #include "materials/facets.h"
+#include "materials/under_coats.h"
 
 namespace mms::materials::tables {
 
@@ -47,31 +49,69 @@ struct Cubic {
   }
 };
 
-/// G of materials/coated.h of a lobe, as what it lets light through along each direction, from g =
-/// T / sqrt(K T), which is nearly right, by the square root of what is still wrong (Knight, Ruiz
-/// and Ucar 2014: the symmetric form of Sinkhorn's iteration).
+/// G^2 of materials/coated.h of a lobe that is to reflect the share A along each direction, from g
+/// = A / sqrt(K A), which is nearly right, by powers of what is still wrong (Knight, Ruiz and Ucar
+/// 2014: the symmetric form of Sinkhorn's iteration), two in turn as in materials/under_coats.h.
 template <class Lobe>
-Values scaled_mean(const Lobe& lobe, const Values& through) {
-  Values g = through, mean = lobe.mean(g);
+Values scaled(const Lobe& lobe, const Values& share) {
+  Values g = share, mean;
+  const auto spread = [&] {
+    mean = lobe.mean(g);
+    for (double& m : mean) m = std::max(m, 1e-9);  // cubics between nodes may swing below 0
+  };
+  spread();
   double worst = 1;
   for (int n = 0; n < 100 && worst > 1e-7; ++n) {
     worst = 0;
     for (std::size_t o = 0; o < g.size(); ++o) {
-      worst = std::max(worst, std::abs(g[o] * mean[o] - through[o]));
-      g[o] = std::sqrt(g[o] * through[o] / mean[o]);
+      worst = std::max(worst, std::abs(g[o] * mean[o] - share[o]));
+      g[o] *= std::pow(share[o] / (g[o] * mean[o]), kScalingPowers<double>[n % 2]);
     }
-    mean = lobe.mean(g);
+    spread();
   }
+  for (double& m : mean) m *= m;
   return mean;
 }
+
+/// What CoatedTables hold of that, below a coat and as one.
+template <class Lobe>
+Values scaled_below(const Lobe& lobe, const Values& through) {
+  Values above = scaled(lobe, through);
+  for (std::size_t o = 0; o < above.size(); ++o) above[o] -= through[o];
+  return above;
+}
+template <class Lobe>
+Values scaled_coat(const Lobe& lobe, const Values& reflected) {
+  Values quotient = scaled(lobe, reflected);
+  for (std::size_t o = 0; o < quotient.size(); ++o)
+    quotient[o] = std::log(quotient[o] / reflected[o]);
+  return quotient;
+}
+
+/// E and T of a coat along directions of the |cosines| `z`.
+struct CoatShares {
+  Values reflected, through;
+
+  template <class Cosine>
+  CoatShares(int count, const Cosine& z, double eta, const Broadness<double>& broad)
+      : reflected(count), through(count) {
+    const CoatShape<double> coat(broad, std::max(fresnel_dielectric_diffuse(eta), 0.0));
+    for (int o = 0; o < count; ++o) {
+      const auto e = coat.split(z(o), eta);
+      reflected[o] = e.reflected;
+      through[o] = e.transmitted;
+    }
+  }
+};
 
 /// What stretched facets of a distribution have other than round ones: coefficients of
 /// [width][index][direction][term of ShapeBasis].
 struct StretchedTables {
-  std::vector<float> coat, coated;  ///< of CoatTables, and of CoatedTables
+  std::vector<float> coat;                ///< CoatedTables::coat_stretched
+  std::vector<std::vector<float>> under;  ///< CoatedTables::under_stretched
 };
-/// From the tables of round ones, CoatTables::round and CoatedTables::polished.
+/// From the tables of round ones.
 template <template <class> class Distribution>
-StretchedTables stretched_coats(const float* round_coat, const float* round_coated);
+StretchedTables stretched_coats(const CoatedTables& round);
 
 }  // namespace mms::materials::tables

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of stretched facets as a coat (materials/coat_lobe.h) and under one
-// (materials/coated.h): two minutes of one core.
+// The tables of stretched facets as a coat and under one (materials/coated.h): five minutes of one
+// core.
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <vector>
@@ -108,7 +109,7 @@ class Lobe {
 
   /// Over slopes as polar coordinates; a lattice, as in materials/tables/coated.cpp.
   std::vector<Facet> all_facets() const {
-    constexpr int kSlopes = 64, kAngles = 64;
+    constexpr int kSlopes = 128, kAngles = 128;
     std::vector<Facet> all;
     for (int k = 0; k < kAngles; ++k) {
       const double phi = 2 * kPi<double> * (k + 0.5) / kAngles;
@@ -170,36 +171,52 @@ double index_at(double place) {
   return (1 + x) / (1 - x);
 }
 
-/// M - F of a coat of index `eta`, and G below a polished one, along all directions of the lobe.
+/// Coats that a lobe lies below, by how broad they are.
+constexpr int kUnder = std::size(axes::kStretchedHeld);
+
+/// As a coat of index `eta`, and below others, along all directions.
 struct OfIndex {
-  Values coat, coated;
+  Values coat, under[kUnder];
 
   template <class Lobe>
-  OfIndex(const Lobe& lobe, double eta) : coat(kNodes) {
-    Values through(kNodes);
-    for (int o = 0; o < kNodes; ++o) {
-      const auto [reflected, transmitted] = fresnel_split(lobe.directions().at(o).z, eta);
-      coat[o] = reflected;
-      through[o] = transmitted;
+  OfIndex(const Lobe& lobe, double eta, const Broadness<double>& broad) {
+    const auto shares = [&](const Broadness<double>& of) {
+      return CoatShares(
+          kNodes, [&](int o) { return lobe.directions().at(o).z; }, eta, of);
+    };
+    coat = scaled_coat(lobe, shares(broad).reflected);
+    for (int b = 0; b < kUnder; ++b) {
+      under[b] = scaled_below(lobe, shares({axes::kStretchedHeld[b], 0}).through);
     }
-    const Values mean = lobe.mean(coat);
-    for (int o = 0; o < kNodes; ++o) coat[o] = mean[o] - coat[o];
-    coated = scaled_mean(lobe, through);
   }
 };
 
 /// Of stretched facets less of round ones, for each index and direction at all shapes.
 struct Differences {
-  std::vector<Values> coat, coated;
+  std::vector<Values> coat, under[kUnder];
 
   explicit Differences(int shapes)
-      : coat(axes::kStretchedCoatIndex * axes::kStretchedCoatDirection, Values(shapes)),
-        coated(coat) {}
+      : coat(axes::kStretchedCoatIndex * axes::kStretchedCoatDirection, Values(shapes)) {
+    for (auto& values : under) values = coat;
+  }
+};
+
+/// What the tables of round facets say, of width `alpha`, as OfIndex does.
+struct OfRound {
+  double coat, under[kUnder];
+
+  OfRound(const CoatedTables& round, double alpha, double eta, double z) {
+    const auto width = CoatedLobe<double>::facet_width(alpha);
+    coat = interpolate_coat(round.coat, width, eta, z);
+    for (int b = 0; b < kUnder; ++b) {
+      const auto weights = lagrange<double>(axes::kHeld, axes::kStretchedHeld[b]);
+      under[b] = interpolate_coat(round.under, weights.data(), int(weights.size()), width, eta, z);
+    }
+  }
 };
 
 template <template <class> class Distribution>
-Differences differences(const ShapeFit& shapes, double root, const float* round_coat,
-                        const float* round_coated) {
+Differences differences(const ShapeFit& shapes, double root, const CoatedTables& round) {
   using namespace axes;
   Differences all(shapes.count());
   for (int first = 0, end = 0; first < shapes.count(); first = end) {
@@ -209,21 +226,18 @@ Differences differences(const ShapeFit& shapes, double root, const float* round_
     const Lobe<Distribution<double>> lobe(wide, narrow);
     for (int n = 0; n < kStretchedCoatIndex; ++n) {
       const double eta = index_at(double(n) / (kStretchedCoatIndex - 1));
-      const OfIndex stretched(lobe, eta);
+      const OfIndex stretched(lobe, eta, Broadness<double>::facets(root));
       for (int d = 0; d < kStretchedCoatDirection; ++d) {
         const double place = double(d) / (kStretchedCoatDirection - 1);
         const double z = cosine_at(std::max(place, 1e-3)), s = std::sqrt((1 - z) * (1 + z));
-        const double through = fresnel_split(z, eta).transmitted;
         for (int i = first; i < end; ++i) {
           const auto seen = shapes.facets(i);
           const Vec3d w{s * seen.x, s * seen.y, z};
-          const auto width =
-              CoatLobe<double>::facet_width(FacetsAlong<double>(nullptr, wide, narrow, w).like);
-          const double m = lobe.directions().value(stretched.coat, w),
-                       g = lobe.directions().value(stretched.coated, w);
+          const OfRound like(round, FacetsAlong<double>(wide, narrow, w).like, eta, z);
           const int at = n * kStretchedCoatDirection + d;
-          all.coat[at][i] = m - interpolate_coat(round_coat, width, eta, z);
-          all.coated[at][i] = g * g - through - interpolate_coat(round_coated, width, eta, z);
+          all.coat[at][i] = lobe.directions().value(stretched.coat, w) - like.coat;
+          for (int b = 0; b < kUnder; ++b)
+            all.under[b][at][i] = lobe.directions().value(stretched.under[b], w) - like.under[b];
         }
       }
     }
@@ -234,34 +248,34 @@ Differences differences(const ShapeFit& shapes, double root, const float* round_
 }  // namespace
 
 template <template <class> class Distribution>
-StretchedTables stretched_coats(const float* round_coat, const float* round_coated) {
+StretchedTables stretched_coats(const CoatedTables& round) {
   using namespace axes;
   const ShapeFit shapes(kStretchedCoatDegree);
   const int steps = kStretchedCoatAlpha - 1, terms = shapes.terms();
-  const auto none = [](const double*) { return 0.0; };  // as it is of mirrors
   const std::vector<int> nodes{kStretchedCoatAlpha, kStretchedCoatIndex, kStretchedCoatDirection,
                                terms};
-  Grid coat(nodes, none), coated(nodes, none);
+  // As it is of mirrors: nothing.
+  std::vector<Grid> fitted(1 + kUnder, Grid(nodes, [](const double*) { return 0.0; }));
   parallel(steps, [&](int k) {
     const double place = (k + 1.0) / steps;
-    const auto all =
-        differences<Distribution>(shapes, place * place * place, round_coat, round_coated);
+    const auto all = differences<Distribution>(shapes, place * place * place, round);
     const auto fit = [&](const std::vector<Values>& values, Grid& to) {
       double* p = &to.values[(k + 1) * values.size() * terms];
       for (const Values& of_shapes : values)
         for (int t = 0; t < terms; ++t) *p++ = shapes.term(t, of_shapes.data());
     };
-    fit(all.coat, coat);
-    fit(all.coated, coated);
+    fit(all.coat, fitted[0]);
+    for (int b = 0; b < kUnder; ++b) fit(all.under[b], fitted[1 + b]);
   });
-  const auto spline = [](const Grid& fitted) {
-    const Values coefficients = fitted.spline(1);
-    return std::vector<float>(coefficients.begin(), coefficients.end());
-  };
-  return {spline(coat), spline(coated)};
+  std::vector<std::vector<float>> splines;
+  for (const Grid& grid : fitted) {
+    const Values coefficients = grid.spline(1);
+    splines.emplace_back(coefficients.begin(), coefficients.end());
+  }
+  return {splines[0], {splines.begin() + 1, splines.end()}};
 }
 
-template StretchedTables stretched_coats<Ggx>(const float*, const float*);
-template StretchedTables stretched_coats<Beckmann>(const float*, const float*);
+template StretchedTables stretched_coats<Ggx>(const CoatedTables&);
+template StretchedTables stretched_coats<Beckmann>(const CoatedTables&);
 
 }  // namespace mms::materials::tables

@@ -65,6 +65,14 @@ std::vector<Case> smooth_cases() {
   put("layer", layer(tinted(Lobe::Sheen, ramp(0.3, 0.9), {0.4}),
                      fresnel_mix(matte(0.8), glossy(1, 40), 1.5), 0.7));
   put("mix", mix(matte(ramp(0.1, 0.9)), glossy(1, 20), ramp(0.2, 0.7)));
+  put("coat of several lobes over stretched facets",
+      coat(mix(scale(beckmann(1, 0.4, -0.6), ramp(1, 0.7)), glossy(1, 40), 0.4),
+           conductor(ramp(0.2, 1.3), ramp(3.4, 2.1), 0.5, 0.7), 0.1, ramp(0.1, 2), ramp(1.6, 1.4)));
+  put("three coats",
+      coat(glossy(1, 100),
+           coat(microfacet(1, 0.4, 0.5),
+                fresnel_mix(microfacet(0.8, 0.5), glossy(1, 40), ramp(1.3, 1.5)), 0, 0, 1.4),
+           0.2, ramp(0.1, 2), ramp(1.6, 1.4)));
   put("coat", fresnel_mix(matte(0.8), glossy(1, 40), ramp(1.6, 1.4)));
   put("coat of facets", fresnel_mix(matte(0.8), microfacet(1, 0.4), ramp(1.6, 1.4)));
   put("coat over rough matte",

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// What a coat does to light along a direction of |cosine| z. It reflects E and lets T = 1 - E
+/// through, and E is a sum of what does not depend on the direction, of Fresnel's reflectance F,
+/// and of L, F at a cosine that is held up from 0:
+///
+///   E = level + steep F(z) + held L(z),   L(z) = F(sqrt(0.09 + 0.91 z^2))
+///
+/// as rough interfaces reflect less towards grazing, whose facets meet light at many angles. A
+/// mirror reflects F. Facets have
+///
+///   E = (1 - s) F + s ((1 - u) L + u m),   s = 1 - exp(-7 alpha^0.75),   u = 0.35 alpha
+///
+/// with m the mean of F over the hemisphere and alpha the geometric mean of both: fitted to the
+/// first bounce of interfaces, and so that highlights near the normal are as bright as F times the
+/// facets there. `glossy` counts as the facets that are as wide. Of several lobes all shares are
+/// means by their weights.
+///
+/// A coat below another is met by light that this one has refracted, whose cosine is at least b =
+/// sqrt(1 - 1 / index^2) however far outside it grazes. There F rises no further than F(b): so much
+/// of F becomes L that it is that at grazing, and where L rises further, so much of L does not
+/// depend on the direction.
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/quadrature.h"
+#include "base/spectrum.h"
+#include "materials/fresnel.h"
+#include "materials/lobe.h"
+
+namespace mms::materials {
+
+/// Of E, how much is L and how much is m; the rest is F.
+template <class R>
+struct Broadness {
+  R held{}, even{};
+
+  bool mirror() const { return held == 0; }
+  bool operator==(const Broadness&) const = default;
+  /// Of facets, from the geometric mean of both alphas. s is below 1, so that E is above 0.
+  static Broadness facets(R alpha) {
+    const R s = -std::expm1(-7 * std::pow(alpha, R(0.75))), u = R(0.35) * alpha;
+    return {s * (1 - u), s * u};
+  }
+  static Broadness glossy(R gloss) { return facets(1 / std::sqrt(1 + 2 * gloss)); }
+};
+
+namespace held {
+inline constexpr double kLeast = 0.3;  ///< the cosine at which L is F at grazing
+
+template <class R>
+inline R cosine(R z) {
+  constexpr R least2 = R(kLeast * kLeast);
+  return std::sqrt(least2 + (1 - least2) * z * z);
+}
+/// The mean of L over the hemisphere.
+template <class R>
+inline R mean(R eta) {
+  constexpr double least2 = kLeast * kLeast;
+  const auto at = [eta](double z) { return 2 * z * double(fresnel_dielectric(R(z), eta)); };
+  return R((integrate<4>(at, kLeast, 0.5) + integrate<4>(at, 0.5, 1)) / (1 - least2));
+}
+}  // namespace held
+
+/// E and T of one index: level + steep F + held L, and the rest.
+template <class R>
+struct CoatShape {
+  FresnelSplit<R> level{R(0), R(0)};
+  R steep{1}, held{};
+
+  CoatShape() = default;
+  CoatShape(const Broadness<R>& broad, R mean)
+      : level{broad.even * mean, broad.even * (1 - mean)},
+        steep(1 - broad.held - broad.even),
+        held(broad.held) {}
+  bool operator==(const CoatShape& b) const {
+    return level.reflected == b.level.reflected && steep == b.steep && held == b.held;
+  }
+
+  FresnelSplit<R> split(R z, R eta) const {
+    FresnelSplit<R> e = level;
+    const auto add = [&e](R share, const FresnelSplit<R>& f) {
+      e.reflected += share * f.reflected;
+      e.transmitted += share * f.transmitted;
+    };
+    if (steep != 0) add(steep, fresnel_split(z, eta));
+    if (held != 0) add(held, fresnel_split(held::cosine(z), eta));
+    return e;
+  }
+
+  /// The mean of E over the hemisphere, `mean` being that of F.
+  R mean(R mean, R eta) const {
+    return level.reflected + steep * mean + (held != 0 ? held * held::mean(eta) : R(0));
+  }
+
+  /// ln of E along the surface over E along the normal.
+  R rise(R eta) const {
+    const R normal = split(R(1), eta).reflected;
+    return normal > 0 ? std::log(split(R(0), eta).reflected / normal) : R(0);
+  }
+
+  /// Of a coat that light meets at cosines of at least `least`.
+  CoatShape below(R least, R eta) const {
+    const R most = fresnel_dielectric(least, eta),
+            held_most = fresnel_dielectric(held_least(), eta);
+    CoatShape to = *this;
+    if (least < held_least()) {
+      to.steep = steep * limited((most - held_most) / (1 - held_most), R(0), R(1));
+      to.held = held + (steep - to.steep);
+      return to;
+    }
+    const FresnelSplit<R> normal = fresnel_split(R(1), eta);
+    const R rises = held_most - normal.reflected;
+    const R kept = rises > 0 ? limited((most - normal.reflected) / rises, R(0), R(1)) : R(0);
+    to.steep = 0;
+    to.held = kept * (steep + held);
+    const R flat = (steep + held) - to.held;
+    to.level.reflected += flat * normal.reflected;
+    to.level.transmitted += flat * normal.transmitted;
+    return to;
+  }
+
+ private:
+  static R held_least() { return R(held::kLeast); }
+};
+
+/// A coat at each wavelength. Where its index is not above 1 it counts as a mirror.
+template <class R>
+struct CoatNumbers {
+  Spectrum<R> eta{R(1)};  ///< index below over index above
+  Spectrum<R> mean{};     ///< of F over the hemisphere
+  Spectrum<R> least{};    ///< |cosine| at which light meets the coat, below others
+  CoatShape<R> shape[kWavelengths];
+
+  CoatNumbers() = default;
+  CoatNumbers(const R* ior, const Spectrum<R>& held, const Spectrum<R>& even,
+              const Spectrum<R>& least_cosine)
+      : least(least_cosine) {
+    for_each_index(ior, [&](int j, bool repeated) {
+      eta[j] = repeated ? eta[j - 1] : relative_eta(ior[j], Vec3<R>{0, 0, 1});
+      mean[j] = repeated ? mean[j - 1] : std::max(fresnel_dielectric_diffuse(eta[j]), R(0));
+      shape[j] = of(j, {held[j], even[j]});
+    });
+  }
+
+  bool operator==(const CoatNumbers& b) const {
+    return eta.v == b.eta.v && least.v == b.least.v && std::ranges::equal(shape, b.shape);
+  }
+  /// Whether wavelength j is as the one before.
+  bool repeated(int j) const {
+    return j > 0 && eta[j] == eta[j - 1] && least[j] == least[j - 1] && shape[j] == shape[j - 1];
+  }
+
+  /// What a lobe of the coat is at wavelength j.
+  CoatShape<R> of(int j, const Broadness<R>& lobe) const {
+    if (!(eta[j] > 1)) return {};
+    const CoatShape<R> alone(lobe, mean[j]);
+    return least[j] > 0 ? alone.below(least[j], eta[j]) : alone;
+  }
+  FresnelSplit<R> split(int j, R z) const { return shape[j].split(z, eta[j]); }
+  R mean_reflected(int j) const { return shape[j].mean(mean[j], eta[j]); }
+  /// |Cosine| at which light that has passed meets what lies below, at least.
+  R least_below(int j) const {
+    const R sine2 = (1 - least[j]) * (1 + least[j]) / (eta[j] * eta[j]);
+    return std::sqrt(1 - sine2);
+  }
+};
+
+/// E and T of a coat along one direction, at each wavelength.
+template <class R>
+struct CoatAlong {
+  Spectrum<R> reflected{}, through{};
+
+  CoatAlong() = default;
+  CoatAlong(const CoatNumbers<R>& coat, R z) {
+    z = limited(z, R(0), R(1));
+    for (int j = 0; j < kWavelengths; ++j) {
+      const FresnelSplit<R> e =
+          coat.repeated(j) ? FresnelSplit<R>{reflected[j - 1], through[j - 1]} : coat.split(j, z);
+      reflected[j] = e.reflected;
+      through[j] = e.transmitted;
+    }
+  }
+};
+
+}  // namespace mms::materials
