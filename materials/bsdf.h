@@ -65,12 +65,13 @@ class Bsdf {
 
   /// How likely each lobe is chosen, for each wavelength as the hero.
   struct Choice {
-    PerNode<Spectrum<R>> probability;    ///< of lobes only
-    bool any = false;                    ///< the hero has something to choose from
-    PerNode<CoatAbove<R>> coats;         ///< where there is more than one node
-    SolvedPerNode<UnderCoats<R>> under;  ///< of lobes that have several coats above or are of one
-    std::bitset<kMaxNodes> solved;       ///< for which nodes `under` is asked
-    PerNode<Spectrum<R>> scaling;        ///< g along `wo`, of lobes known under coats or in one
+    PerNode<Spectrum<R>> probability;     ///< of lobes only
+    bool any = false;                     ///< the hero has something to choose from
+    PerNode<CoatAbove<R>> coats;          ///< where there is more than one node
+    SolvedPerNode<UnderCoats<R>> under;   ///< of lobes that have several coats above or are of one
+    std::bitset<kMaxNodes> solved;        ///< for which nodes `under` is asked
+    SolvedPerNode<MeanThrough<R>> means;  ///< of Lambert lobes that have coats above
+    PerNode<Spectrum<R>> scaling;         ///< g along `wo`, of lobes known under coats or in one
     /// What models with a function `seen` said of `wo`.
     std::tuple<PerNode<FacetsSeen<R>>, PerNode<InterfaceSeen<R>>> seen;
 
@@ -111,6 +112,8 @@ class Bsdf {
                                              const Choice& choice) const;
 
   void find_coated_glass(Vec3<R> wo, PerNode<CoatAbove<R>>& coats) const;
+  /// Of the coats above a Lambert lobe.
+  Spectrum<R> mean_through_coats(int lobe, Choice& choice) const;
 
   /// `visit(model)` for the lobe of node `i`; `none` for combiners and phase functions.
   template <class Result, class Visit>

@@ -220,20 +220,40 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
     const bool part = coat.part_of >= 0;
     if (!part && !coat.ior) continue;
     with_model(i, 0, [&](const auto& model) {
+      if constexpr (detail::kLambert<R, std::decay_t<decltype(model)>>) {
+        if (coat.ior) choice.coats.of[coat.base].mean = mean_through_coats(i, choice);
+      }
       if constexpr (requires { model.coated(wo); }) {
         if (detail::is_specular(model)) return 0;
         const CoatedLobe<R> lobe = model.coated(wo);
         if (part ? bool(coat.ior) : coat.upper >= 0)
-          if (const auto coats = coats_above(choice.coats, coat, lobe.broad)) {
+          if (const auto coats = coats_above(choice.coats, coat, lobe.broad())) {
             choice.under.solve(i, lobe.round(), *coats);
             choice.solved.set(i);
           }
         choice.scaling.of[i] =
-            coated_scaling(choice.coats, coat, choice.solution(i), lobe, wo.z, coat.through_o);
+            coated_scaling(choice.coats, coat, choice.solution(i), lobe, coat.through_o);
       }
       return 0;
     });
   }
+}
+
+template <class R>
+Spectrum<R> Bsdf<R>::mean_through_coats(int lobe, Choice& choice) const {
+  const CoatAbove<R>& above = choice.coats.of[lobe];
+  Spectrum<R> mean;
+  if (above.upper < 0) {
+    for (int j = 0; j < kWavelengths; ++j)
+      mean[j] = above.numbers.repeated(j) ? mean[j - 1] : 1 - above.numbers.mean_reflected(j);
+  } else if (const auto coats = coats_above(choice.coats, above)) {
+    choice.means.solve(lobe, *coats);
+    mean = choice.means[lobe].mean();
+  } else {
+    for (int j = 0; j < kWavelengths; ++j)
+      mean[j] = mean_through<R>([&](R z) { return through_all(choice.coats, above, j, z); });
+  }
+  return mean;
 }
 
 template <class R>
@@ -284,7 +304,7 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
           const CoatAbove<R>& coat = choice.coats.of[i];
           if (coat.part_of >= 0 || coat.ior) {
             total.f += l.f * coated_weight(weights.of[i], choice.coats, coat, choice.solution(i),
-                                           model.coated(wi), wi.z, choice.scaling.of[i]);
+                                           model.coated(wi), choice.scaling.of[i]);
             return 0;
           }
         }

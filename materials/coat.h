@@ -42,11 +42,17 @@ struct Broadness {
   bool operator==(const Broadness&) const = default;
   /// Of facets, from the geometric mean of both alphas. s is below 1, so that E is above 0.
   static Broadness facets(R alpha) {
-    const R s = -std::expm1(-7 * std::pow(alpha, R(0.75))), u = R(0.35) * alpha;
+    const R root = std::sqrt(alpha), s = -std::expm1(-7 * (root * std::sqrt(root))),
+            u = R(0.35) * alpha;
     return {s * (1 - u), s * u};
   }
-  static Broadness glossy(R gloss) { return facets(1 / std::sqrt(1 + 2 * gloss)); }
 };
+
+/// Alpha of the facets that are as wide as `glossy`.
+template <class R>
+inline R glossy_as_facets(R gloss) {
+  return 1 / std::sqrt(1 + 2 * gloss);
+}
 
 namespace held {
 inline constexpr double kLeast = 0.3;  ///< the cosine at which L is F at grazing
@@ -142,7 +148,9 @@ struct CoatNumbers {
     for_each_index(ior, [&](int j, bool repeated) {
       eta[j] = repeated ? eta[j - 1] : relative_eta(ior[j], Vec3<R>{0, 0, 1});
       mean[j] = repeated ? mean[j - 1] : std::max(fresnel_dielectric_diffuse(eta[j]), R(0));
-      shape[j] = of(j, {held[j], even[j]});
+      const bool same =
+          repeated && held[j] == held[j - 1] && even[j] == even[j - 1] && least[j] == least[j - 1];
+      shape[j] = same ? shape[j - 1] : of(j, {held[j], even[j]});
     });
   }
 
@@ -159,6 +167,13 @@ struct CoatNumbers {
     if (!(eta[j] > 1)) return {};
     const CoatShape<R> alone(lobe, mean[j]);
     return least[j] > 0 ? alone.below(least[j], eta[j]) : alone;
+  }
+  /// The coat as if it were of that lobe alone.
+  CoatNumbers as(const Broadness<R>& lobe) const {
+    CoatNumbers to = *this;
+    for (int j = 0; j < kWavelengths; ++j)
+      to.shape[j] = repeated(j) ? to.shape[j - 1] : of(j, lobe);
+    return to;
   }
   FresnelSplit<R> split(int j, R z) const { return shape[j].split(z, eta[j]); }
   R mean_reflected(int j) const { return shape[j].mean(mean[j], eta[j]); }

@@ -41,7 +41,7 @@ namespace axes {
 /// Widths of `rough_matte`, and directions of a lobe's matrix.
 inline constexpr int kCoatedMatte = 5, kSpread = 32;
 /// s of the coats that lobes lie below in the tables.
-inline constexpr double kHeld[] = {0, 0.15, 0.45, 0.8, 1}, kStretchedHeld[] = {0, 0.3, 0.7, 1};
+inline constexpr double kHeld[] = {0, 0.2, 0.5, 0.8, 1}, kStretchedHeld[] = {0, 0.3, 0.7, 1};
 /// Of stretched facets; the axis of the width is that of an interface.
 inline constexpr int kStretchedCoatAlpha = 17, kStretchedCoatIndex = 11,
                      kStretchedCoatDirection = 25, kStretchedCoatDegree = 12;
@@ -83,14 +83,14 @@ struct CoatedTables {
 };
 extern const CoatedTables kGgxCoated, kBeckmannCoated, kGlossyCoated, kMatteCoated;
 
-/// What tables over a lobe's width hold for relative index `eta` > 1 and |cosine| `z`: the sum of
-/// `count` of them, by weights, or one.
+/// What tables over a lobe's width hold for relative index `eta` > 1 and a direction at `place` of
+/// axes::coat_direction: the sum of `count` of them, by weights, or one.
 template <class R>
 inline R interpolate_coat(const float* const* tables, const R* weights, int count,
-                          const Stencil<R>& width, R eta, R z) {
+                          const Stencil<R>& width, R eta, R place) {
   using namespace axes;
   const auto n = Stencil<R>::at(index(eta), kCoatIndex);
-  const auto d = Stencil<R>::at(coat_direction(z), kCoatDirection);
+  const auto d = Stencil<R>::at(place, kCoatDirection);
   constexpr int n1 = coefficients(kCoatDirection), n0 = n1 * coefficients(kCoatIndex);
   R sum = 0;
   for (int k = 0; k < count; ++k)
@@ -98,9 +98,9 @@ inline R interpolate_coat(const float* const* tables, const R* weights, int coun
   return sum;
 }
 template <class R>
-inline R interpolate_coat(const float* table, const Stencil<R>& width, R eta, R z) {
+inline R interpolate_coat(const float* table, const Stencil<R>& width, R eta, R place) {
   const R one = 1;
-  return interpolate_coat(&table, &one, 1, width, eta, z);
+  return interpolate_coat(&table, &one, 1, width, eta, place);
 }
 
 /// Facets as they look along one direction.
@@ -127,15 +127,16 @@ struct FacetsAlong {
     return along / (1 + (along - std::sqrt(area)));
   }
 
-  /// The sum of `count` tables, by weights, for relative index `eta` > 1 and |cosine| `z`.
-  R difference(const float* const* tables, const R* weights, int count, R eta, R z) const {
+  /// The sum of `count` tables, by weights, for relative index `eta` > 1 and a direction at `place`
+  /// of axes::coat_direction.
+  R difference(const float* const* tables, const R* weights, int count, R eta, R place) const {
     using namespace axes;
     using Basis = ShapeBasis<R>;
     constexpr int terms = Basis::terms(kStretchedCoatDegree),
                   n1 = terms * coefficients(kStretchedCoatDirection),
                   n0 = n1 * coefficients(kStretchedCoatIndex);
     const auto n = Stencil<R>::at(stretched_coat_index(eta), kStretchedCoatIndex);
-    const auto d = Stencil<R>::at(coat_direction(z), kStretchedCoatDirection);
+    const auto d = Stencil<R>::at(place, kStretchedCoatDirection);
     R sums[terms] = {};
     for (int b = 0; b < count; ++b) {
       if (weights[b] == 0) continue;
@@ -164,76 +165,92 @@ inline std::array<R, N> lagrange(const double (&nodes)[N], R x) {
   for (std::size_t k = 0; k < N; ++k) {
     to[k] = 1;
     for (std::size_t m = 0; m < N; ++m)
-      if (m != k) to[k] *= (x - R(nodes[m])) / R(nodes[k] - nodes[m]);
+      if (m != k) to[k] *= (x - R(nodes[m])) * R(1 / (nodes[k] - nodes[m]));
   }
   return to;
 }
 
-/// One lobe's width; of stretched facets, along one direction.
+/// One lobe along one direction.
 template <class R>
 struct CoatedLobe {
-  const CoatedTables* tables;
-  Stencil<R> width;
-  R cosines = 1;         ///< the width as that of axes::spread_direction
-  Broadness<R> broad{};  ///< of a coat of it
+  const CoatedTables* tables = nullptr;
+  Stencil<R> width{};
+  R cosines = 1;       ///< the width as that of axes::spread_direction
+  R as_facets = 0;     ///< alpha of facets that are as wide, as a coat
+  R z = 1, place = 1;  ///< the direction's |cosine|, and where it is on axes::coat_direction
   FacetsAlong<R> along{R(1), R(1), {}};
 
+  CoatedLobe() = default;
   static CoatedLobe facets(const CoatedTables& tables, R ax, R ay, Vec3<R> w) {
     const FacetsAlong<R> along(ax, ay, w);
-    return {&tables, facet_width(along.like), axes::width(along.like),
-            Broadness<R>::facets(along.mean), along};
+    CoatedLobe lobe(tables, facet_width(along.like), axes::width(along.like), w);
+    lobe.as_facets = along.mean;
+    lobe.along = along;
+    return lobe;
   }
-  static CoatedLobe glossy(R gloss) {
-    return {&kGlossyCoated, Stencil<R>::at(axes::gloss(gloss), axes::kGloss),
-            axes::gloss_width(gloss), Broadness<R>::glossy(gloss)};
+  static CoatedLobe glossy(R gloss, Vec3<R> w) {
+    CoatedLobe lobe(kGlossyCoated, Stencil<R>::at(axes::gloss(gloss), axes::kGloss),
+                    axes::gloss_width(gloss), w);
+    lobe.as_facets = glossy_as_facets(gloss);
+    return lobe;
   }
-  static CoatedLobe matte(R roughness) {
-    return {&kMatteCoated, Stencil<R>::at(roughness, axes::kCoatedMatte)};
+  static CoatedLobe matte(R roughness, Vec3<R> w) {
+    return {kMatteCoated, Stencil<R>::at(roughness, axes::kCoatedMatte), 1, w};
   }
   static Stencil<R> facet_width(R alpha) {
     return Stencil<R>::at(axes::coat_alpha(alpha), axes::kCoatAlpha);
   }
 
   bool stretched() const { return along.stretched; }
+  Broadness<R> broad() const { return Broadness<R>::facets(as_facets); }
   /// Round facets of the same mean width; other lobes as they are.
   CoatedLobe round() const {
     if (!stretched()) return *this;
-    return facets(*tables, along.mean, along.mean, {});
+    return facets(*tables, along.mean, along.mean, {R(0), R(0), z});
   }
   /// Of lobes that are not stretched.
   bool is_like(const CoatedLobe& other) const {
     return tables == other.tables && width == other.width && cosines == other.cosines;
   }
 
-  /// G^2 along a direction of |cosine| `z` below a coat of relative index `eta` > 1, for T =
-  /// `through` along the direction. What rounding leaves of G^2 next to the surface is kept from 0.
-  R below(R eta, const CoatShape<R>& coat, R z, R through) const {
+  /// G^2 below a coat of relative index `eta` > 1, for T = `through`. What rounding leaves of G^2
+  /// next to the surface is kept from 0.
+  R below(R eta, const CoatShape<R>& coat, R through) const {
     const R varies = coat.steep + coat.held;
     if (!(varies > 0)) return through;
     const R s = coat.held / varies;
     const auto weights = lagrange<R>(axes::kHeld, s);
-    R above = interpolate_coat(tables->under, weights.data(), int(weights.size()), width, eta, z);
+    R above =
+        interpolate_coat(tables->under, weights.data(), int(weights.size()), width, eta, place);
     if (stretched()) {
       const auto of_shape = lagrange<R>(axes::kStretchedHeld, s);
       // Below the axis few directions are not let through.
       constexpr R least = R(axes::kLeastCoatIndex * axes::kLeastCoatIndex * axes::kLeastCoatIndex *
                             axes::kLeastCoatIndex);
-      above +=
-          along.difference(tables->under_stretched, of_shape.data(), int(of_shape.size()), eta, z) *
-          std::min((eta - 1) / (least * (eta + 1)), R(1));
+      above += along.difference(tables->under_stretched, of_shape.data(), int(of_shape.size()), eta,
+                                place) *
+               std::min((eta - 1) / (least * (eta + 1)), R(1));
     }
     return std::max(through + varies * above, through / 2);
   }
   /// The same as a part of a coat, for E = `reflected`, where the logarithm of E varies `varies`
   /// times as much as it does where no other coat is above.
-  R as_coat(R eta, R z, R reflected, R varies = 1) const {
-    R quotient = interpolate_coat(tables->coat, width, eta, z);
+  R as_coat(R eta, R reflected, R varies = 1) const {
+    R quotient = interpolate_coat(tables->coat, width, eta, place);
     if (stretched()) {
       const R one = 1;
-      quotient += along.difference(&tables->coat_stretched, &one, 1, eta, z);
+      quotient += along.difference(&tables->coat_stretched, &one, 1, eta, place);
     }
     return reflected * std::exp(limited(quotient * varies, R(-20), R(40)));
   }
+
+ private:
+  CoatedLobe(const CoatedTables& its_tables, const Stencil<R>& its_width, R its_cosines, Vec3<R> w)
+      : tables(&its_tables),
+        width(its_width),
+        cosines(its_cosines),
+        z(std::min(std::abs(w.z), R(1))),
+        place(axes::coat_direction(z)) {}
 };
 
 }  // namespace mms::materials

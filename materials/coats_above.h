@@ -10,7 +10,6 @@
 #include <bitset>
 #include <optional>
 
-#include "base/quadrature.h"
 #include "materials/coat.h"
 #include "materials/coated.h"
 #include "materials/conductor.h"
@@ -48,7 +47,7 @@ struct CoatAbove {
   bool over_glass = false;   ///< such lobes are all or a part of what lies below
   CoatAlong<R> o{};
   Spectrum<R> through_o{};  ///< what is left of light by all coats that count together
-  Spectrum<R> mean{};       ///< of that over the hemisphere
+  Spectrum<R> mean{};       ///< of that over the hemisphere, where Lambert lobes lie right below
   Spectrum<R> mirrored{};   ///< over glass: what the coat reflects
 
   /// Whether at wavelength j it counts together with those above.
@@ -140,7 +139,7 @@ inline bool is_metal(Lobe lobe) {
 template <class R>
 inline std::optional<Broadness<R>> lobe_broadness(const Layout::Node& node, const R* p) {
   const auto of = [](const auto& model) {
-    return model.specular() ? Broadness<R>{} : model.coated({0, 0, 1}).broad;
+    return model.specular() ? Broadness<R>{} : model.coated({0, 0, 1}).broad();
   };
   switch (node.lobe) {
     case Lobe::Mirror:
@@ -211,37 +210,33 @@ inline CoatKind<R> coat_kind(const Layout& layout, const R* params, int node) {
   return kind;
 }
 
-/// The mean of what coats let through together, those of the node `base` and above.
-template <class R>
-inline R mean_through_all(const PerNode<CoatAbove<R>>& coats, int base, int j) {
-  if (!coats.of[base].nested[j]) return 1 - coats.of[base].numbers.mean_reflected(j);
-  const auto at = [&](R u) {  // z = u^3: dense towards grazing
-    const R z = u * u * u;
-    R through = 1;
-    for (int at_coat = base; at_coat >= 0;) {
-      const CoatAbove<R>& one = coats.of[at_coat];
-      through *= one.numbers.split(j, z).transmitted;
-      at_coat = one.nested[j] ? one.upper : -1;
-    }
-    return 6 * u * u * z * through;
-  };
-  return R(integrate<8>(at, 0, 0.5) + integrate<8>(at, 0.5, 1));
-}
-
 }  // namespace detail
+
+/// What the coats above a node let through together at wavelength j, along a direction of |cosine|
+/// `z`.
+template <class R>
+inline R through_all(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above, int j, R z) {
+  R through = 1;
+  for (int at = above.base; at >= 0;) {
+    const CoatAbove<R>& one = coats.of[at];
+    through *= one.numbers.split(j, z).transmitted;
+    at = one.nested[j] ? one.upper : -1;
+  }
+  return through;
+}
 
 /// The coats that G of a lobe depends on: those of its node, which is `above`, and what the lobe
 /// itself, as broad as `broad`, is a part of. None where they are too many.
 template <class R>
 inline std::optional<Coats<R>> coats_above(const PerNode<CoatAbove<R>>& coats,
-                                           const CoatAbove<R>& above, const Broadness<R>& broad) {
+                                           const CoatAbove<R>& above,
+                                           const Broadness<R>& broad = {}) {
   const bool part = above.part_of >= 0;
   if (above.depth + part > Coats<R>::kMost) return {};
   Coats<R> all;
   if (part) {
     all.reflects = true;
-    all.add(coats.of[above.part_of].numbers);
-    for (int j = 0; j < kWavelengths; ++j) all.of[0].shape[j] = all.of[0].of(j, broad);
+    all.add(coats.of[above.part_of].numbers.as(broad));
   }
   for (int at = above.base; at >= 0; at = coats.of[at].upper) all.add(coats.of[at].numbers);
   return all;
@@ -281,10 +276,6 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
       below.through_o = below.o.through;
       for (int j = 0; j < kWavelengths; ++j)
         if (below.nested[j]) below.through_o[j] *= upper->through_o[j];
-      for (int j = 0; j < kWavelengths; ++j) {
-        const bool repeated = j > 0 && below.through_o[j] == below.through_o[j - 1];
-        below.mean[j] = repeated ? below.mean[j - 1] : detail::mean_through_all(coats, base, j);
-      }
       if (below.kind.known) above[coat].part_of = base;
     };
     if (node.lobe == Lobe::FresnelMix)

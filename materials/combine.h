@@ -214,19 +214,19 @@ inline bool counts_together(const PerNode<CoatAbove<R>>& coats, const CoatAbove<
 /// (materials/coat.h).
 template <class R>
 inline R squared_of_each(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
-                         const CoatedLobe<R>& lobe, int j, R z) {
+                         const CoatedLobe<R>& lobe, int j) {
   R squared = 1;
   if (above.part_of >= 0) {
     const CoatNumbers<R>& coat = coats.of[above.part_of].numbers;
     const R eta = coat.eta[j];
-    const CoatShape<R> alone(lobe.broad, coat.mean[j]), below = coat.of(j, lobe.broad);
+    const CoatShape<R> alone(lobe.broad(), coat.mean[j]), below = coat.of(j, lobe.broad());
     const R rise = alone.rise(eta), varies = rise > 0 ? below.rise(eta) / rise : R(1);
-    squared = lobe.as_coat(eta, z, below.split(z, eta).reflected, varies);
+    squared = lobe.as_coat(eta, below.split(lobe.z, eta).reflected, varies);
   }
   for (int at = above.base; at >= 0;) {
     const CoatAbove<R>& one = coats.of[at];
-    squared *= lobe.below(one.numbers.eta[j], one.numbers.shape[j], z,
-                          one.numbers.split(j, z).transmitted);
+    squared *= lobe.below(one.numbers.eta[j], one.numbers.shape[j],
+                          one.numbers.split(j, lobe.z).transmitted);
     at = one.nested[j] ? one.upper : -1;
   }
   return squared;
@@ -237,44 +237,45 @@ inline R squared_of_each(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>&
 template <class R>
 inline R squared_of_several(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
                             const UnderCoats<R>* under, const typename UnderCoats<R>::Along& along,
-                            const CoatedLobe<R>& lobe, int j, R z, R through, R reflected) {
-  if (!under) return squared_of_each(coats, above, lobe, j, z);
+                            const CoatedLobe<R>& lobe, int j, R through, R reflected) {
+  if (!under) return squared_of_each(coats, above, lobe, j);
   const R solved = under->squared(j, along, through, reflected);
   if (!lobe.stretched()) return solved;
-  const R round = squared_of_each(coats, above, lobe.round(), j, z);
-  return round > 0 ? solved * (squared_of_each(coats, above, lobe, j, z) / round) : R(0);
+  const R round = squared_of_each(coats, above, lobe.round(), j);
+  return round > 0 ? solved * (squared_of_each(coats, above, lobe, j) / round) : R(0);
 }
 
-/// g of materials/coated.h along a direction of |cosine| `z`, of a lobe that is known below a coat
-/// or as a part of one; 1 where no more is known. `through` is what the coats above that count
-/// together let through there, `under` what is solved for the lobe where they are several.
+/// g of materials/coated.h along one direction, of a lobe that is known below a coat or as a part
+/// of one; 1 where no more is known. `through` is what the coats above that count together let
+/// through there, `under` what is solved for the lobe where they are several.
 template <class R>
 inline Spectrum<R> coated_scaling(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
-                                  const UnderCoats<R>* under, const CoatedLobe<R>& lobe, R z,
+                                  const UnderCoats<R>* under, const CoatedLobe<R>& lobe,
                                   const Spectrum<R>& through) {
-  z = std::min(std::abs(z), R(1));
   const bool part = above.part_of >= 0;
   const CoatNumbers<R>& coat = part ? coats.of[above.part_of].numbers : above.numbers;
   typename UnderCoats<R>::Along along;
-  if (under) along = under->along(z);
+  if (under) along = under->along(lobe.z);
   Spectrum<R> g{R(1)};
-  bool alone = false;  // the coat was all that matters, at the wavelength before
+  const Broadness<R> broad = part ? lobe.broad() : Broadness<R>{};
+  bool known = false, several = false;
   for (int j = 0; j < kWavelengths; ++j) {
+    const bool was_known = known, were_several = several;
     const R eta = coat.eta[j], t = through[j];
     const bool together = counts_together(coats, above, j);
-    const bool several = part ? together : above.nested[j];
-    const bool known = part ? eta > 1 : together;
-    if (known && !several && alone && coat.repeated(j)) {
+    known = part ? eta > 1 : together;
+    several = part ? together : above.nested[j];
+    if (!known) continue;
+    if (was_known && several == were_several && coat.repeated(j) &&
+        (!several || (under && under->repeated(j)))) {
       g[j] = g[j - 1];
       continue;
     }
-    alone = known && !several;
-    if (!known) continue;
-    const CoatShape<R> shape = part ? coat.of(j, lobe.broad) : coat.shape[j];
-    const R e = part ? shape.split(z, eta).reflected : R(1);
-    const R squared = several ? squared_of_several(coats, above, under, along, lobe, j, z, t, e)
-                      : part  ? lobe.as_coat(eta, z, e)
-                              : lobe.below(eta, shape, z, t);
+    const CoatShape<R> shape = part ? coat.of(j, broad) : coat.shape[j];
+    const R e = part ? shape.split(lobe.z, eta).reflected : R(1);
+    const R squared = several ? squared_of_several(coats, above, under, along, lobe, j, t, e)
+                      : part  ? lobe.as_coat(eta, e)
+                              : lobe.below(eta, shape, t);
     g[j] = squared > 0 ? (several || !part ? e * t : e) / std::sqrt(squared) : R(0);
   }
   return g;
@@ -284,8 +285,8 @@ inline Spectrum<R> coated_scaling(const PerNode<CoatAbove<R>>& coats, const Coat
 template <class R>
 inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const PerNode<CoatAbove<R>>& coats,
                                  const CoatAbove<R>& above, const UnderCoats<R>* under,
-                                 const CoatedLobe<R>& lobe_i, R cos_i, const Spectrum<R>& g_o) {
-  const Spectrum<R> g_i = coated_scaling(coats, above, under, lobe_i, cos_i, w.through_i);
+                                 const CoatedLobe<R>& lobe_i, const Spectrum<R>& g_o) {
+  const Spectrum<R> g_i = coated_scaling(coats, above, under, lobe_i, w.through_i);
   Spectrum<R> f;
   for (int j = 0; j < kWavelengths; ++j)
     f[j] = (counts_together(coats, above, j) ? w.bare[j] : w.other[j]) * (g_o[j] * g_i[j]);

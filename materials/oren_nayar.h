@@ -78,7 +78,7 @@ struct RoughMatte {
 
   static constexpr bool specular() { return false; }
   Spectrum<R> estimate(Vec3<R>) const { return colour; }
-  CoatedLobe<R> coated(Vec3<R>) const { return CoatedLobe<R>::matte(r); }
+  CoatedLobe<R> coated(Vec3<R> w) const { return CoatedLobe<R>::matte(r, w); }
 
   /// 1 - albedo of one bounce on white, over r a: c1 - G / pi, G = s (theta - s c + 2/3 (c (1 + s +
   /// s^2) / (1 + s) - 1)), which is free of divisions by the cosine.

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/quadrature.h"
 #include "base/spectrum.h"
 #include "base/warp.h"
 #include "materials/coat.h"
@@ -75,6 +76,7 @@ struct Coats {
   }
   /// Whether there is something to solve for.
   bool known(int j) const { return of[0].eta[j] > 1; }
+  bool several(int j) const { return count > 1 && of[0].eta[j] > 1 && of[1].eta[j] > 1; }
   /// What the lobe is to reflect along a direction of |cosine| `z`: T, of all coats up to one whose
   /// index is not above 1, or T E.
   R through(int j, R z) const {
@@ -83,6 +85,38 @@ struct Coats {
     return t;
   }
   R reflected(int j, R z) const { return reflects ? of[0].split(j, z).reflected : R(1); }
+};
+
+/// The mean over the hemisphere of what is let through along directions of |cosine| z: through(z).
+template <class R, class Through>
+inline R mean_through(const Through& through) {
+  const auto at = [&](double u) {  // z = u^3: dense towards grazing
+    const double z = u * u * u;
+    return 6 * u * u * z * double(through(R(z)));
+  };
+  return R(integrate<8>(at, 0, 0.5) + integrate<8>(at, 0.5, 1));
+}
+
+/// That of coats together.
+template <class R>
+class MeanThrough {
+ public:
+  void solve(const Coats<R>& coats) {
+    coats_ = coats;
+    for (int j = 0; j < kWavelengths; ++j)
+      if (j > 0 && coats.repeated(j))
+        mean_[j] = mean_[j - 1];
+      else if (coats.several(j))
+        mean_[j] = mean_through<R>([&](R z) { return coats.through(j, z); });
+      else
+        mean_[j] = 1 - coats.of[0].mean_reflected(j);
+  }
+  bool solves(const Coats<R>& coats) const { return coats == coats_; }
+  const Spectrum<R>& mean() const { return mean_; }
+
+ private:
+  Coats<R> coats_;
+  Spectrum<R> mean_;
 };
 
 /// A lobe's matrix, of its width.
@@ -198,6 +232,9 @@ class UnderCoats {
       }
     return along;
   }
+
+  /// Whether wavelength j is as the one before.
+  bool repeated(int j) const { return coats_.repeated(j); }
 
   /// G^2 of wavelength j along the direction, for T = `through` and, of a part of a coat, E =
   /// `reflected`.

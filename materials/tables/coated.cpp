@@ -130,7 +130,7 @@ int main(int argc, char** argv) {
     write_facets<Ggx>(to, "kGgx", ggx);
     write_facets<Beckmann>(to, "kBeckmann", beckmann);
     write_coat(to, "kGlossy", glossy,
-               [](double x) { return Broadness<double>::glossy(gloss_at(x)); });
+               [](double x) { return Broadness<double>::facets(glossy_as_facets(gloss_at(x))); });
     write_under(to, "kGlossy", glossy);
     write_under(to, "kMatte", matte);
     const auto facet_width = [](double place) { return width(alpha_at(place)); };

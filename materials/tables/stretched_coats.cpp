@@ -205,12 +205,13 @@ struct Differences {
 struct OfRound {
   double coat, under[kUnder];
 
-  OfRound(const CoatedTables& round, double alpha, double eta, double z) {
+  OfRound(const CoatedTables& round, double alpha, double eta, double place) {
     const auto width = CoatedLobe<double>::facet_width(alpha);
-    coat = interpolate_coat(round.coat, width, eta, z);
+    coat = interpolate_coat(round.coat, width, eta, place);
     for (int b = 0; b < kUnder; ++b) {
       const auto weights = lagrange<double>(axes::kHeld, axes::kStretchedHeld[b]);
-      under[b] = interpolate_coat(round.under, weights.data(), int(weights.size()), width, eta, z);
+      under[b] =
+          interpolate_coat(round.under, weights.data(), int(weights.size()), width, eta, place);
     }
   }
 };
@@ -233,7 +234,8 @@ Differences differences(const ShapeFit& shapes, double root, const CoatedTables&
         for (int i = first; i < end; ++i) {
           const auto seen = shapes.facets(i);
           const Vec3d w{s * seen.x, s * seen.y, z};
-          const OfRound like(round, FacetsAlong<double>(wide, narrow, w).like, eta, z);
+          const OfRound like(round, FacetsAlong<double>(wide, narrow, w).like, eta,
+                             axes::coat_direction(z));
           const int at = n * kStretchedCoatDirection + d;
           all.coat[at][i] = lobe.directions().value(stretched.coat, w) - like.coat;
           for (int b = 0; b < kUnder; ++b)
