@@ -21,7 +21,7 @@
 /// A coat below another is met by light that this one has refracted, whose cosine is at least b =
 /// sqrt(1 - 1 / index^2) however far outside it grazes. There F rises no further than F(b): so much
 /// of F becomes L that it is that at grazing, and where L rises further, so much of L does not
-/// depend on the direction.
+/// depend on the direction. Right above interfaces, as of glass, a coat is met as from outside.
 
 #include <algorithm>
 #include <cmath>

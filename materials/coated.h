@@ -15,14 +15,12 @@
 ///
 /// Tables hold, for each width, index above 1 and direction, G^2 - T where T is 1 - (1 - s) F - s L
 /// (materials/coat.h) for some s, with polynomials between; and ln (G^2 / E) as a coat: E is next
-/// to nothing along most directions where the index is next to 1. Where a part of T does not depend
-/// on the direction, G^2 - T is as much less as F and L are, but for the square of their variation
-/// (materials/tables/coated.cpp). What
-/// stretched facets have above round ones as wide along the direction is in further tables, as
-/// polynomials over the shape that they have along it (materials/tables/stretched_coats.cpp). The
-/// energy of coat and base is 1 within 1e-4; of stretched facets, under a coat or as one, for
-/// indices from 1.2 to 4, within 5e-4, beyond anisotropy 0.9 1.5e-3; as a coat next to grazing
-/// 2e-3, and more towards index 1. Below several coats G is solved for (materials/under_coats.h).
+/// to nothing along most directions where the index is next to 1 (materials/tables/coated.cpp).
+/// Where a part of T does not depend on the direction, G^2 - T is as much less as F and L are, but
+/// for the square of how much they vary. What stretched facets have above round ones as wide along
+/// the direction is in further tables, as polynomials over the shape that they have along it
+/// (materials/tables/stretched_coats.cpp). What that is off by says materials/combine.h. Below
+/// several coats G is solved for (materials/under_coats.h).
 
 #include <algorithm>
 #include <array>

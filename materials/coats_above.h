@@ -130,6 +130,15 @@ inline void for_each_part(const Layout& layout, const R* params, int node,
     for_each_part(layout, params, n.children[c], weights, visit);
 }
 
+/// Whether what `node` is a sum of has interfaces, as of glass.
+inline bool has_interfaces(const Layout& layout, int node) {
+  const Layout::Node& n = layout.nodes()[node];
+  const bool sum = n.lobe == Lobe::Mix || n.lobe == Lobe::Scale || n.lobe == Lobe::Add;
+  if (!sum) return (traits(n.lobe) & Reflects) && (traits(n.lobe) & Transmits);
+  return std::any_of(n.children, n.children + n.child_count,
+                     [&](int child) { return has_interfaces(layout, child); });
+}
+
 /// Whether the lobe's colour is not its first numbers, but what its facets reflect.
 inline bool is_metal(Lobe lobe) {
   return lobe == Lobe::Conductor || lobe == Lobe::ColouredMetal || lobe == Lobe::FilmConductor;
@@ -264,11 +273,13 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
       const CoatAbove<R>* upper = above[i].ior ? &above[above[i].base] : nullptr;
       Spectrum<R> least;
       if (upper) {
+        // What glass sends back is known below coats that reflect F (materials/glass_coat.h).
+        const bool glass = detail::has_interfaces(layout, base);
         below.upper = upper->base;
         below.depth += upper->depth;
         for (int j = 0; j < kWavelengths; ++j) {
           below.nested[j] = relative_eta(ior[j], Vec3<R>{0, 0, 1}) > 1 && upper->numbers.eta[j] > 1;
-          if (below.nested[j]) least[j] = upper->numbers.least_below(j);
+          if (below.nested[j] && !glass) least[j] = upper->numbers.least_below(j);
         }
       }
       below.numbers = {ior, below.kind.held, below.kind.even, least};

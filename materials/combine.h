@@ -24,8 +24,10 @@
 ///   base: T T' / mean T         whose integral over wi is exactly T (Kelemen and Szirmay-Kalos
 ///                               2001, where the coat is polished)
 /// so that a lossless base under a lossless coat is 1 in every direction: round facets, `glossy`
-/// and both mattes under any such coat within 3e-4, of `glossy` 1e-3; stretched facets in it within
-/// 3e-3, under it 5e-4. All other lobes get
+/// and both mattes under any such coat within 1e-4 for indices from 1.005 to 4 and roughness from
+/// 0.05, beyond these 4e-4, and towards index 1 or 8 1e-3; stretched facets in it or under it
+/// 1.5e-4, beyond anisotropy 0.8 6e-4, above index 4 4e-3, and in a coat of index 1.001 5e-3. All
+/// other lobes get
 ///   base: min(T, T')
 /// which never gains, as it is below T. All of these are symmetric. A specular coat over a Lambert
 /// base is 1 exactly; but near grazing a broad coat of which no more is known loses much: min(F,
@@ -33,9 +35,9 @@
 ///
 /// Where a coat lies right under another, as plastic under varnish, and so on, T is the product of
 /// all coats above, and a lobe of a coat below others gets E of its coat times their T: g and h are
-/// then solved for (materials/under_coats.h), within 2e-3 of lobes that are not stretched.
-/// Stretched ones get min(T, T') of each coat. A coat whose index is 1 at every wavelength is not
-/// there.
+/// then solved for (materials/under_coats.h), within 1e-4; of stretched facets within 2e-3 where
+/// the index above is next to 1. Of more than six coats g is the product of each alone: 5e-3. A
+/// coat whose index is 1 at every wavelength is not there.
 ///
 /// Where the index is above 1 and the coat polished, that is of mirrors alone, interfaces right
 /// below get what passes it once if light changes sides, twice if it stays outside, and never if it

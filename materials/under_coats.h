@@ -5,9 +5,8 @@
 /// Lobes below several coats, one right under the other, and the lobes of such coats: G of
 /// materials/coated.h where what is to be reflected is a product, the T of all coats above, times E
 /// of the coat that the lobe is a part of, if it is. That is no table's, and so is solved for, once
-/// for all directions: at few of them, with K as a matrix and polynomials between. White facets,
-/// `glossy` and `rough_matte`, none of them stretched, keep their energy within 1e-4, for indices
-/// from 1.02 to 4 (next to a mirror, of a roughness below 0.1, 1e-3; above 4, 2e-3).
+/// for all directions: at few of them, with K as a matrix and polynomials between. White round
+/// facets, `glossy` and `rough_matte` keep their energy within 1e-4, for indices from 1.02 to 4.
 
 #include <algorithm>
 #include <array>
