@@ -46,10 +46,9 @@
 ///   base: T(outside), T T' / max(T, T', T(1)), or 1
 /// so that lossless glass is 1 from both sides: smooth 1e-5 (`dielectric`, `beckmann_dielectric`,
 /// `film_dielectric`, `phong_glass`, `refraction`), round facets of roughness from 0.1 1e-3, below
-/// it 3e-3, for indices of both between 1 and 4. Stretched facets never gain, and lose up to 0.04
-/// at anisotropy 0.5, 0.1 at 0.9, where a coat sends most back. Under rough coats, and
-/// `phong_glass` that is rough, interfaces get min(T, T') as if both directions were outside, and
-/// lose more.
+/// it 3e-3, for indices of both between 1 and 4; stretched ones 1e-3 up to anisotropy 0.5, 2.5e-3
+/// at 0.9. Under rough coats, and `phong_glass` that is rough, interfaces get min(T, T') as if both
+/// directions were outside, and lose up to a tenth about the critical angle.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`:

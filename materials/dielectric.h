@@ -72,22 +72,13 @@ struct RoughInterface {
     for (int j = 0; j < kWavelengths; ++j) eta[j] = rough_eta(j, wo);
     SentBack<R> back(wo, eta);
     const Spectrum<R>& tint = wo.z > 0 ? reflected : transmitted;
-    // Stretched facets are taken for round ones, less what that may be too much by (by quadrature):
-    // the less, the less they blur.
-    const R stretch = std::abs(facets.ax - facets.ay) / (facets.ax + facets.ay);
-    const R doubt = stretch * std::min(2 * std::sqrt(std::sqrt(facets.ax * facets.ay)), R(1));
-    const R sure = 1 - R(wo.z > 0 ? 0 : 0.5) * doubt, least = R(wo.z > 0 ? 0.008 : 0.03) * doubt;
-    const R alpha = width_along(wo);
     for (int j = 0; j < kWavelengths; ++j) {
       const R n = relative_eta(coat[j], Vec3<R>{0, 0, 1});
       if (repeated(j) && coat[j] == coat[j - 1])
         back.share[j] = back.share[j - 1];
       else if (n > 1)
-        back.share[j] =
-            tint[j] * std::max(sure * materials::sent_back(glass_tables(facets), alpha, wo,
-                                                           wo.z > 0 ? eta[j] : 1 / eta[j], n) -
-                                   least,
-                               R(0));
+        back.share[j] = tint[j] * materials::sent_back(glass_tables(facets), facets.ax, facets.ay,
+                                                       wo, wo.z > 0 ? eta[j] : 1 / eta[j], n);
     }
     return back;
   }
@@ -174,12 +165,6 @@ struct RoughInterface {
   };
 
   R narrow() const { return std::min(facets.ax, facets.ay); }
-
-  /// Of round facets that are as wide along `w`.
-  R width_along(Vec3<R> w) const {
-    if (facets.ax == facets.ay) return facets.ax;
-    return InterfaceLoss<R>{nullptr, facets.ax, facets.ay, R(1)}.stretched(w).like();
-  }
 
   /// Index ratio with the bend kept above what `specular()` resolves; wavelengths of one material
   /// differ little, so this matters only where a dispersion curve crosses 1.

@@ -8,7 +8,8 @@ namespace {
 
 }  // namespace
 
-const GlassTables kGgxGlass{{kGgxOutside, kGgxInside}};
-const GlassTables kBeckmannGlass{{kBeckmannOutside, kBeckmannInside}};
+const GlassTables kGgxGlass{{kGgxOutside, kGgxInside}, {kGgxBentOutside, kGgxBentInside}};
+const GlassTables kBeckmannGlass{{kBeckmannOutside, kBeckmannInside},
+                                 {kBeckmannBentOutside, kBeckmannBentInside}};
 
 }  // namespace mms::materials

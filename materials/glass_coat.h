@@ -18,8 +18,9 @@
 ///
 /// so that lossless glass below a lossless coat loses nothing. Where both are smooth it is exact;
 /// of facets tables hold both integrals (materials/tables/glass.cpp): within 1e-3 for roughness
-/// from 0.1, below that within 3e-3. Beyond indices of 1 and 4 all is as below other coats.
-/// Stretched facets are taken for round ones that are as wide along the direction, but never gain.
+/// from 0.1, below that within 3e-3. Beyond indices of 1 and 4 all is as below other coats. What
+/// stretched facets have above round ones as wide along the direction is in further tables, as
+/// polynomials over the shape that they have along it.
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +37,11 @@ namespace axes {
 /// Of glass below a polished coat: [0] seen from outside, [1] from inside.
 inline constexpr int kGlassAlpha[] = {18, 20}, kGlassIndex[] = {12, 15},
                      kGlassDirection[] = {44, 50}, kGlassCoat[] = {20, 14};
+/// The same of stretched facets, and the degree of polynomials over their shapes.
+struct BentGlassGrid {
+  int width, index, direction, coat, degree;
+};
+inline constexpr BentGlassGrid kBentGlass[] = {{7, 7, 12, 6, 8}, {10, 10, 22, 7, 10}};
 /// The ends of the axes of both indices, 1.0002 and 4, and the least width, nearly a mirror's.
 inline constexpr double kLeastGlassIndex = 0.1, kMostGlassIndex = 0.8801117;
 inline constexpr double kLeastGlassAlpha = 0.0464;
@@ -79,6 +85,9 @@ inline R glass_direction(bool inside, R z, R s, R alpha, R glass) {
 /// [index of the glass][direction][index of the coat], for round facets.
 struct GlassTables {
   const float* sent[2];  ///< seen from outside, and from inside
+  /// Of stretched ones less that: [width][index of the glass][direction][index of
+  /// the coat][term of ShapeBasis].
+  const float* bent[2];
 };
 extern const GlassTables kGgxGlass, kBeckmannGlass;
 
@@ -113,22 +122,65 @@ inline R glass_factor(bool o_outside, bool i_outside, R o, R i, R eta) {
   return most > 0 ? o * i / most : R(0);
 }
 
-/// What of light along `w` the mirror of a coat of index `coat` gets besides F, of facets of width
-/// `alpha` and index `glass`. \pre in_glass_tables of both indices
+/// What of light along a direction the mirror of a coat of index `coat` gets besides F, of round
+/// facets as wide as `f` is along it, of index `glass`. \pre in_glass_tables of both indices
 template <class R>
-inline R sent_back(const GlassTables& tables, R alpha, Vec3<R> w, R glass, R coat) {
+inline R sent_back_by_round(const GlassTables& tables, const StretchedInterface<R>& f, bool inside,
+                            R glass, R coat) {
   using namespace axes;
-  const bool inside = w.z < 0;
-  const R z = std::min(std::abs(w.z), R(1)), s = std::sqrt(w.x * w.x + w.y * w.y);
+  const R alpha = f.like(), s = std::sqrt(f.x * f.x + f.y * f.y);
   const auto a = Stencil<R>::at(glass_alpha(alpha), kGlassAlpha[inside]);
   const auto n = Stencil<R>::at(glass_index(glass), kGlassIndex[inside]);
   const auto d =
-      Stencil<R>::at(glass_direction(inside, z, s, alpha, glass), kGlassDirection[inside]);
+      Stencil<R>::at(glass_direction(inside, f.z, s, alpha, glass), kGlassDirection[inside]);
   const auto c = Stencil<R>::at(glass_index(coat), kGlassCoat[inside]);
   const int n2 = coefficients(kGlassCoat[inside]), n1 = n2 * coefficients(kGlassDirection[inside]),
             n0 = n1 * coefficients(kGlassIndex[inside]);
   const R read = interpolate(tables.sent[inside], a, n0, n, n1, d, n2, c);
-  R sent = inside ? read * read : std::max(read, R(0));
+  return inside ? read * read : std::max(read, R(0));
+}
+
+/// How much more it is of `f` itself.
+template <class R>
+inline R sent_back_by_shape(const GlassTables& tables, const StretchedInterface<R>& f, bool inside,
+                            R glass, R coat) {
+  using namespace axes;
+  using Basis = ShapeBasis<R>;
+  const BentGlassGrid& grid = kBentGlass[inside];
+  const R alpha = f.like(), s = std::sqrt(f.x * f.x + f.y * f.y);
+  const auto a = Stencil<R>::at(glass_alpha(alpha), grid.width);
+  const auto n = Stencil<R>::at(glass_index(glass), grid.index);
+  const auto d = Stencil<R>::at(glass_direction(inside, f.z, s, alpha, glass), grid.direction);
+  const auto c = Stencil<R>::at(glass_index(coat), grid.coat);
+  const int terms = Basis::terms(grid.degree), n2 = terms * coefficients(grid.coat),
+            n1 = n2 * coefficients(grid.direction), n0 = n1 * coefficients(grid.index);
+  R sums[Basis::kMost] = {};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      for (int k = 0; k < 4; ++k)
+        for (int l = 0; l < 4; ++l) {
+          const float* p = tables.bent[inside] + (a.first + i) * n0 + (n.first + j) * n1 +
+                           (d.first + k) * n2 + (c.first + l) * terms;
+          const R weight = a.weight[i] * n.weight[j] * d.weight[k] * c.weight[l];
+          for (int t = 0; t < terms; ++t) sums[t] += weight * R(p[t]);
+        }
+  const Basis basis(f.shape(), grid.degree);
+  R sum = 0;
+  for (int t = 0; t < terms; ++t) sum += sums[t] * basis.value[t];
+  return sum;
+}
+
+/// What of light along `w` the mirror of a coat of index `coat` gets besides F, of facets of the
+/// widths `ax` and `ay` and index `glass`. \pre in_glass_tables of both indices
+template <class R>
+inline R sent_back(const GlassTables& tables, R ax, R ay, Vec3<R> w, R glass, R coat) {
+  using namespace axes;
+  const bool inside = w.z < 0;
+  const R z = std::min(std::abs(w.z), R(1));
+  const StretchedInterface<R> f = ax < ay ? StretchedInterface<R>{ay, ax, w.y, w.x, z}
+                                          : StretchedInterface<R>{ax, ay, w.x, w.y, z};
+  R sent = sent_back_by_round(tables, f, inside, glass, coat);
+  if (ax != ay) sent = std::max(sent + sent_back_by_shape(tables, f, inside, glass, coat), R(0));
   // Next to 1, few directions are not let through.
   constexpr R x = R(kLeastGlassIndex * kLeastGlassIndex * kLeastGlassIndex * kLeastGlassIndex);
   sent *= std::min((coat - 1) / (x * (coat + 1)), R(1));
