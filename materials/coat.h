@@ -39,7 +39,6 @@ struct Broadness {
   R held{}, even{};
 
   bool mirror() const { return held == 0; }
-  bool operator==(const Broadness&) const = default;
   /// Of facets, from the geometric mean of both alphas. s is below 1, so that E is above 0.
   static Broadness facets(R alpha) {
     const R root = std::sqrt(alpha), s = -std::expm1(-7 * (root * std::sqrt(root))),
@@ -110,10 +109,10 @@ struct CoatShape {
 
   /// Of a coat that light meets at cosines of at least `least`.
   CoatShape below(R least, R eta) const {
-    const R most = fresnel_dielectric(least, eta),
-            held_most = fresnel_dielectric(held_least(), eta);
+    constexpr R held_least = R(held::kLeast);
+    const R most = fresnel_dielectric(least, eta), held_most = fresnel_dielectric(held_least, eta);
     CoatShape to = *this;
-    if (least < held_least()) {
+    if (least < held_least) {
       to.steep = steep * limited((most - held_most) / (1 - held_most), R(0), R(1));
       to.held = held + (steep - to.steep);
       return to;
@@ -128,9 +127,6 @@ struct CoatShape {
     to.level.transmitted += flat * normal.transmitted;
     return to;
   }
-
- private:
-  static R held_least() { return R(held::kLeast); }
 };
 
 /// A coat at each wavelength. Where its index is not above 1 it counts as a mirror.

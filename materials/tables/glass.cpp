@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/glass_coat.h and writes them as C++ to the named file: run by
-// the build, in a quarter of a minute of one core.
+// the build, in a minute of one core.
 #include <array>
 #include <cstdio>
 #include <string>

@@ -107,7 +107,7 @@ class Lobe {
     double x, y, share;
   };
 
-  /// Over slopes as polar coordinates; a lattice, as in materials/tables/coated.cpp.
+  /// Over slopes as polar coordinates; a lattice, as in materials/tables/spread.h.
   std::vector<Facet> all_facets() const {
     constexpr int kSlopes = 128, kAngles = 128;
     std::vector<Facet> all;
