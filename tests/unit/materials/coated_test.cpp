@@ -95,8 +95,8 @@ TEST_CASE("a lossless lobe under a lossless coat keeps its energy") {
 TEST_CASE("rough_matte under a polished coat keeps its energy") {
   const auto make = [](double r) { return tinted(Lobe::RoughMatte, 1, {r}); };
   const Range a = under_coats(make, {0.15, 0.5, 1.0}, {1.05, 1.5, 4.0}, 0, 16);
-  CHECK(a.least > 1 - 3e-4);
-  CHECK(a.most < 1 + 3e-4);
+  CHECK(a.least > 1 - 1e-4);
+  CHECK(a.most < 1 + 1e-4);
   MESSAGE("albedo from ", a.least, " to ", a.most);
 }
 

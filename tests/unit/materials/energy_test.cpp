@@ -140,21 +140,20 @@ TEST_CASE("white under a white coat") {
   }
 }
 
-TEST_CASE("rough matte under a coat never gains, and loses little") {
+TEST_CASE("rough matte under a coat keeps its energy") {
   double most = 0, least = 1;
   for (double ior : {1.02, 1.1, 1.5, 2.5})
     for (double roughness : {0.0, 0.1, 0.5, 1.0})
       for (double degrees : {0.0, 50.0, 80.0}) {
         if (kSanitized && (ior != 1.5 || roughness != 0.5)) continue;
         const Material base = tinted(Lobe::RoughMatte, 1, {roughness});
-        const double under_mirror = albedo(fresnel_mix(base, mirror(1), ior), degrees, 0, 10) +
+        const double under_mirror = albedo(fresnel_mix(base, mirror(1), ior), degrees, 0, 16) +
                                     materials::fresnel_dielectric(direction(degrees, 0).z, ior);
         const double under_facets =
-            albedo(fresnel_mix(base, microfacet(1, 0.5), ior), degrees, 0, 10);
+            albedo(fresnel_mix(base, microfacet(1, 0.5), ior), degrees, 0, 16);
         for (const double a : {under_mirror, under_facets}) {
           CHECK_MESSAGE(a < 1 + 1e-4, ior, " ", roughness, " at ", degrees, ": ", a);
-          CHECK_MESSAGE(a > 0.98, ior, " ", roughness, " at ", degrees, ": ", a);
-          if (roughness == 0) CHECK(std::abs(a - 1) < 1e-4);
+          CHECK_MESSAGE(a > 1 - 1e-4, ior, " ", roughness, " at ", degrees, ": ", a);
           most = std::max(most, a);
           least = std::min(least, a);
         }
