@@ -115,6 +115,9 @@ constexpr const char* kVariants[] = {
     "coat(mirror(), microfacet(0.8, 0.4, 0.8))",
     "coat(mirror(), microfacet(0.8, 0.4), ior = 1.45 + 1e-14 / ($wavelength * $wavelength))",
     "coat(microfacet(1, 0.3), microfacet(0.8, 0.4))",
+    "coat(mirror(), dielectric(1.5, 0.4))",
+    "coat(microfacet(1, 0.3), dielectric(1.5))",
+    "coat(microfacet(1, 0.3), dielectric(1.5, 0.4))",
     "coat(microfacet(1, 0.3), microfacet(0.8, 0.4), ior = 1.45 + 1e-14 / ($wavelength * "
     "$wavelength))",
 };

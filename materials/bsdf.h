@@ -68,6 +68,7 @@ class Bsdf {
     PerNode<Spectrum<R>> probability;     ///< of lobes only
     bool any = false;                     ///< the hero has something to choose from
     PerNode<CoatAbove<R>> coats;          ///< where there is more than one node
+    PerNode<OverGlass<R>> glass;          ///< of coats that are over glass
     SolvedPerNode<UnderCoats<R>> under;   ///< of lobes that have several coats above or are of one
     std::bitset<kMaxNodes> solved;        ///< for which nodes `under` is asked
     SolvedPerNode<MeanThrough<R>> means;  ///< of Lambert lobes that have coats above
@@ -111,7 +112,12 @@ class Bsdf {
   std::optional<BsdfSample<R>> sample_smooth(int lobe, Vec3<R> wo, R u, R u1, R u2, Mode mode,
                                              const Choice& choice) const;
 
-  void find_coated_glass(Vec3<R> wo, PerNode<CoatAbove<R>>& coats) const;
+  void find_coated_glass(Vec3<R> wo, Choice& choice) const;
+  /// Over what a coat right above node `base` lies, light along `w` being seen.
+  Sent<R> sent_back(int base, Vec3<R> w, const Choice& choice) const;
+  Spectrum<R> mean_spread(int base, bool inside, const Choice& choice) const;
+  /// The coat that node `i` is the combiner of, over glass, or null.
+  const OverGlass<R>* over_glass(int i, const Choice& choice) const;
   /// Of the coats above a Lambert lobe.
   Spectrum<R> mean_through_coats(int lobe, Choice& choice) const;
 

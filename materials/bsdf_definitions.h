@@ -45,14 +45,13 @@ concept CanBeSmooth = requires(const M& m) {
 template <class R, class M>
 inline constexpr bool kLambert = std::is_same_v<M, Matte<R>> || std::is_same_v<M, Translucent<R>>;
 
-/// Whether the model is an interface of which it is known what a polished coat of these indices
-/// sends back.
+/// Whether the model is an interface of which it is known what coats send back.
 template <class R, class M>
-inline bool knows_coat(const M& model, const R* ior) {
+inline bool knows_coats(const M& model, const CoatsOnGlass<R>& coats) {
   if constexpr (std::is_same_v<M, Refraction<R>> || std::is_same_v<M, FilmDielectric<R>>)
     return true;
-  else if constexpr (requires { model.knows_coat(ior); })
-    return model.knows_coat(ior);
+  else if constexpr (requires { model.knows_coats(coats); })
+    return model.knows_coats(coats);
   else
     return false;
 }
@@ -205,10 +204,11 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
   }
   Spectrum<R> sum;
   find_coats(*layout_, params_, wo, choice.coats);
-  if (layout_->transmits()) find_coated_glass(wo, choice.coats);
+  if (layout_->transmits()) find_coated_glass(wo, choice);
   weigh_for_choice(*layout_, params_, wo, &choice.coats, choice.probability);
   for (int i = 0; i < node_count(); ++i) {
-    probability[i] *= estimate(i);
+    const OverGlass<R>* glass = over_glass(i, choice);
+    probability[i] *= glass ? glass->o.all() * glass->colour : estimate(i);
     sum += probability[i];
   }
   for (int j = 0; j < kWavelengths; ++j) sum[j] = sum[j] > least ? 1 / sum[j] : R(0);
@@ -251,27 +251,101 @@ Spectrum<R> Bsdf<R>::mean_through_coats(int lobe, Choice& choice) const {
     mean = choice.means[lobe].mean();
   } else {
     for (int j = 0; j < kWavelengths; ++j)
-      mean[j] = mean_through<R>([&](R z) { return through_all(choice.coats, above, j, z); });
+      mean[j] = mean_through<R>(
+          [&](R z) { return split_together(choice.coats, above, j, z).transmitted; });
   }
   return mean;
 }
 
 template <class R>
-void Bsdf<R>::find_coated_glass(Vec3<R> wo, PerNode<CoatAbove<R>>& coats) const {
-  const auto sent = [&](int lobe, const R* ior) {
-    return with_model(lobe, std::optional<SentBack<R>>(), [&](const auto& model) {
-      std::optional<SentBack<R>> back;
-      if (!detail::knows_coat<R>(model, ior)) return back;
-      if constexpr (requires { model.sent_back(wo, ior); })
-        back = model.sent_back(wo, ior);
-      else if constexpr (detail::CanBeSpecular<std::decay_t<decltype(model)>>)
-        back = SentBack<R>::smooth(model.terms(wo), wo, ior);
-      return back;
-    });
+void Bsdf<R>::find_coated_glass(Vec3<R> wo, Choice& choice) const {
+  find_glass(
+      *layout_, params_, choice.coats, choice.glass, [&](int lobe, const CoatsOnGlass<R>& coats) {
+        return with_model(lobe, false,
+                          [&](const auto& model) { return detail::knows_coats<R>(model, coats); });
+      });
+  for (int i = 0; i < node_count(); ++i) {
+    if (choice.coats.of[i].base != i || !choice.coats.of[i].over_glass) continue;
+    OverGlass<R>& glass = choice.glass.of[i];
+    glass.colour = choice.coats.of[i].kind.colour;
+    glass.o = sent_back(i, wo, choice);
+    glass.mean = mean_spread(i, wo.z < 0, choice);
+  }
+}
+
+template <class R>
+Sent<R> Bsdf<R>::sent_back(int base, Vec3<R> w, const Choice& choice) const {
+  const CoatAbove<R>& above = choice.coats.of[base];
+  const CoatsOnGlass<R> coats{choice.coats, above, choice.glass.of[base].law};
+  Sent<R> sent;
+  const auto add = [&](const SentBack<R>& back, const Spectrum<R>& weight) {
+    for (int j = 0; j < kWavelengths; ++j) {
+      // Of light outside, directions say what passes the layers (materials/combine.h).
+      const R layers = w.z > 0 ? R(1) : coats.layers(j, back.cosine[j]);
+      const R share = weight[j] * back.share[j] * layers * layers;
+      const R spread = back.broad * above.kind.broad(j);
+      sent.mirrored[j] += share * (1 - spread);
+      sent.spread[j] += share * spread;
+    }
   };
-  for (int i = 0; i < node_count(); ++i)
-    if (coats.of[i].base == i && coats.of[i].kind.polished)
-      find_glass(*layout_, params_, wo, i, coats, sent);
+  for_each_below(*layout_, params_, choice.coats, base, [&](int i, const Spectrum<R>& weight) {
+    if (!choice.coats.of[i].passed_once) return;
+    with_model(i, 0, [&](const auto& model) {
+      if constexpr (requires { model.sent_back(w, coats); })
+        add(model.sent_back(w, coats), weight);
+      else if constexpr (detail::CanBeSpecular<std::decay_t<decltype(model)>>)
+        add(SentBack<R>::smooth(model.terms(w), w, coats), weight);
+      return 0;
+    });
+  });
+  return sent;
+}
+
+template <class R>
+Spectrum<R> Bsdf<R>::mean_spread(int base, bool inside, const Choice& choice) const {
+  if (choice.glass.of[base].o.spread.v == Spectrum<R>().v) return {};
+  // Over x = z^2 and, in four parts, the azimuth; points crowd about the critical angle.
+  R at = 0;
+  bool stretched = false;
+  for_each_below(*layout_, params_, choice.coats, base, [&](int i, const Spectrum<R>&) {
+    if (!choice.coats.of[i].passed_once) return;
+    with_model(i, 0, [&](const auto& model) {
+      if constexpr (requires {
+                      model.facets;
+                      model.ior;
+                    }) {
+        const R eta = relative_eta(model.ior[0], Vec3<R>{0, 0, R(inside ? -1 : 1)});
+        at = std::max(at, (1 - eta) * (1 + eta));
+        stretched |= model.facets.ax != model.facets.ay;
+      }
+      return 0;
+    });
+  });
+  Spectrum<R> mean;
+  constexpr int kPoints = 8;
+  for (const R reach : {-at, 1 - at}) {
+    if (reach == 0) continue;
+    for (int k = 0; k < kPoints; ++k) {
+      const R t = R(gauss<kPoints>().x[k]), x = at + reach * t * t * t;
+      const R z = std::sqrt(x), s = std::sqrt(1 - x);
+      const R weight = R(gauss<kPoints>().w[k]) * 3 * t * t * std::abs(reach);
+      const int turns = stretched ? 4 : 1;
+      for (int turn = 0; turn < turns; ++turn) {
+        const R phi = (R(turn) + R(0.5)) / R(turns) * (kPi<R> / 2);
+        const Vec3<R> w{s * std::cos(phi), s * std::sin(phi), inside ? -z : z};
+        mean += sent_back(base, w, choice).spread * (weight / R(turns));
+      }
+    }
+  }
+  return mean;
+}
+
+template <class R>
+const OverGlass<R>* Bsdf<R>::over_glass(int i, const Choice& choice) const {
+  const int base = coat_base(layout_->nodes()[i]);
+  if (base < 0 || choice.coats.of[base].base != base || !choice.coats.of[base].over_glass)
+    return nullptr;
+  return &choice.glass.of[base];
 }
 
 template <class R>
@@ -294,6 +368,17 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
   PerNode<NodeWeight<R>> weights;
   weigh(*layout_, params_, choice.coats, wo, wi, mode, weights);
   for (int i = 0; i < node_count(); ++i) {
+    if (const OverGlass<R>* glass = over_glass(i, choice); glass && same_side(wo, wi)) {
+      const int base = coat_base(layout_->nodes()[i]);
+      const Spectrum<R> spread = sent_back(base, wi, choice).spread;
+      for (int j = 0; j < kWavelengths; ++j) {
+        if (!(glass->mean[j] > 0)) continue;
+        total.f[j] += weights.of[base].crossing[j] * glass->colour[j] * glass->o.spread[j] *
+                      spread[j] / (kPi<R> * glass->mean[j]);
+        total.pdf[j] +=
+            choice.probability.of[i][j] * (1 - glass->mirror_share(j)) * (std::abs(wi.z) / kPi<R>);
+      }
+    }
     with_model(i, 0, [&](const auto& model) {
       using Model = std::decay_t<decltype(model)>;
       if constexpr (detail::CanBeSmooth<Model>) {
@@ -308,8 +393,9 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
             return 0;
           }
         }
-        if (choice.coats.of[i].passed_once) {
-          total.f += l.f * weights.of[i].glass;
+        const CoatAbove<R>& above = choice.coats.of[i];
+        if (above.passed_once) {
+          total.f += l.f * glass_weight(weights.of[i], above, choice.glass.of[above.base], wo, wi);
           return 0;
         }
         total.f += l.f * (detail::kLambert<R, Model> ? weights.of[i].lambert : weights.of[i].other);
@@ -337,20 +423,27 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample(Vec3<R> wo, R u_lobe, R u1, R u2, M
   }
   if (chosen < 0) return {};
   u = std::min(u, 1 - std::numeric_limits<R>::epsilon() / 2);
-  return node_is_specular(chosen) ? sample_specular(chosen, wo, u, mode, choice)
-                                  : sample_smooth(chosen, wo, u, u1, u2, mode, choice);
+  const OverGlass<R>* glass = node_count() > 1 ? over_glass(chosen, choice) : nullptr;
+  return (glass ? u < glass->mirror_share(0) : node_is_specular(chosen))
+             ? sample_specular(chosen, wo, u, mode, choice)
+             : sample_smooth(chosen, wo, u, u1, u2, mode, choice);
 }
 
 template <class R>
 std::optional<BsdfSample<R>> Bsdf<R>::sample_smooth(int lobe, Vec3<R> wo, R u, R u1, R u2,
                                                     Mode mode, const Choice& choice) const {
   BsdfSample<R> s;
-  const bool drawn = with_model(lobe, false, [&](const auto& model) {
-    if constexpr (detail::CanBeSmooth<std::decay_t<decltype(model)>>)
-      return detail::sample<R>(model, wo, u, u1, u2, lobe, choice, s.wi);
-    else
-      return false;
-  });
+  const bool glass = node_count() > 1 && over_glass(lobe, choice);
+  if (glass) {
+    s.wi = square_to_cosine_hemisphere(u1, u2);
+    if (wo.z < 0) s.wi.z = -s.wi.z;
+  }
+  const bool drawn = glass || with_model(lobe, false, [&](const auto& model) {
+                       if constexpr (detail::CanBeSmooth<std::decay_t<decltype(model)>>)
+                         return detail::sample<R>(model, wo, u, u1, u2, lobe, choice, s.wi);
+                       else
+                         return false;
+                     });
   if (!drawn) return {};
   if (in_surface(s.wi)) return {};
   const Lobes<R> l = evaluate(wo, s.wi, mode, choice);
@@ -365,6 +458,11 @@ template <class R>
 std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u, Mode mode,
                                                       const Choice& choice) const {
   const auto terms_of = [&](int i) {
+    if (const OverGlass<R>* glass = node_count() > 1 ? over_glass(i, choice) : nullptr) {
+      SpecularTerms<R> terms = mirror_terms(glass->o.mirrored);
+      for (int j = 0; j < kWavelengths; ++j) terms.reflect_probability[j] = glass->mirror_share(j);
+      return terms;
+    }
     return with_model(i, SpecularTerms<R>{}, [&](const auto& model) {
       if constexpr (detail::CanBeSpecular<std::decay_t<decltype(model)>>)
         if (detail::is_specular(model)) return model.terms(wo);
@@ -390,11 +488,16 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u,
     weigh(*layout_, params_, choice.coats, wo, s.wi, mode, weights);
   for (int i = 0; i < node_count(); ++i) {
     const SpecularTerms<R> t = i == lobe ? mine : terms_of(i);
-    const bool glass = node_count() > 1 && choice.coats.of[i].passed_once;
-    const Spectrum<R> weight = glass              ? weights.of[i].glass
-                               : node_count() > 1 ? delta_weight(weights.of[i].other, choice.coats,
-                                                                 choice.coats.of[i], cos_i)
-                                                  : weights.of[i].other;
+    Spectrum<R> weight = weights.of[i].other;
+    if (node_count() > 1) {
+      const CoatAbove<R>& above = choice.coats.of[i];
+      if (const OverGlass<R>* glass = over_glass(i, choice))
+        weight = weights.of[coat_base(layout_->nodes()[i])].crossing * glass->colour;
+      else if (above.passed_once)
+        weight = glass_weight(weights.of[i], above, choice.glass.of[above.base], wo, s.wi);
+      else
+        weight = delta_weight(weight, choice.coats, above, cos_i);
+    }
     for (int j = 0; j < kWavelengths; ++j) {
       if (!reflect && t.eta[j] != eta) continue;
       const R scale = reflect || mode == Mode::Importance ? R(1) : 1 / (eta * eta);

@@ -188,9 +188,9 @@ struct CoatAlong {
   CoatAlong() = default;
   CoatAlong(const CoatNumbers<R>& coat, R z) {
     z = limited(z, R(0), R(1));
+    FresnelSplit<R> e{};
     for (int j = 0; j < kWavelengths; ++j) {
-      const FresnelSplit<R> e =
-          coat.repeated(j) ? FresnelSplit<R>{reflected[j - 1], through[j - 1]} : coat.split(j, z);
+      if (!coat.repeated(j)) e = coat.split(j, z);
       reflected[j] = e.reflected;
       through[j] = e.transmitted;
     }

@@ -136,20 +136,9 @@ struct FacetsAlong {
     const auto n = Stencil<R>::at(stretched_coat_index(eta), kStretchedCoatIndex);
     const auto d = Stencil<R>::at(place, kStretchedCoatDirection);
     R sums[terms] = {};
-    for (int b = 0; b < count; ++b) {
-      if (weights[b] == 0) continue;
-      for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 4; ++j)
-          for (int k = 0; k < 4; ++k) {
-            const float* p =
-                tables[b] + (root.first + i) * n0 + (n.first + j) * n1 + (d.first + k) * terms;
-            const R weight = weights[b] * root.weight[i] * n.weight[j] * d.weight[k];
-            for (int t = 0; t < terms; ++t) sums[t] += weight * R(p[t]);
-          }
-    }
-    const Basis basis(shape, kStretchedCoatDegree);
-    R sum = 0;
-    for (int t = 0; t < terms; ++t) sum += sums[t] * basis.value[t];
+    for (int b = 0; b < count; ++b)
+      if (weights[b] != 0) add_terms(sums, terms, tables[b], weights[b], root, n0, n, n1, d, terms);
+    const R sum = Basis(shape, kStretchedCoatDegree).sum(sums);
     // Above the axis few directions are let through.
     const auto mean_through = [](R index) { return 1 - fresnel_dielectric_diffuse(index); };
     return eta > 4 ? sum * (mean_through(eta) / mean_through(R(4))) : sum;

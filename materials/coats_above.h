@@ -30,6 +30,10 @@ struct CoatKind {
   bool known = false;          ///< how each spreads light, and one is no mirror
   bool polished = false;       ///< all are mirrors
   Spectrum<R> held{}, even{};  ///< as in materials/coat.h; of what is not known, 0
+  Spectrum<R> colour{R(1)};    ///< of all lobes together, at most 1; of what is not known, 1
+
+  /// How broad the coat is; what is not known counts as broad.
+  R broad(int j) const { return known || polished ? held[j] + even[j] : R(1); }
 };
 
 /// The coat right above a node, where light is seen along one direction.
@@ -44,11 +48,11 @@ struct CoatAbove {
   int part_of = -1;          ///< that of the coat of whose known lobes this node is one, or some
   const R* layer = nullptr;  ///< the numbers of its `coat`, if it is one
   bool passed_once = false;  ///< by what changes sides at this lobe (materials/glass_coat.h)
-  bool over_glass = false;   ///< such lobes are all or a part of what lies below
+  bool over_glass = false;   ///< such lobes are all or a part of what lies right below
   CoatAlong<R> o{};
   Spectrum<R> through_o{};  ///< what is left of light by all coats that count together
   Spectrum<R> mean{};       ///< of that over the hemisphere, where Lambert lobes lie right below
-  Spectrum<R> mirrored{};   ///< over glass: what the coat reflects
+  Spectrum<R> glass{};      ///< their share, with those below further coats that count together
 
   /// Whether at wavelength j it counts together with those above.
   std::array<bool, kWavelengths> nested{};
@@ -130,15 +134,6 @@ inline void for_each_part(const Layout& layout, const R* params, int node,
     for_each_part(layout, params, n.children[c], weights, visit);
 }
 
-/// Whether what `node` is a sum of has interfaces, as of glass.
-inline bool has_interfaces(const Layout& layout, int node) {
-  const Layout::Node& n = layout.nodes()[node];
-  const bool sum = n.lobe == Lobe::Mix || n.lobe == Lobe::Scale || n.lobe == Lobe::Add;
-  if (!sum) return (traits(n.lobe) & Reflects) && (traits(n.lobe) & Transmits);
-  return std::any_of(n.children, n.children + n.child_count,
-                     [&](int child) { return has_interfaces(layout, child); });
-}
-
 /// Whether the lobe's colour is not its first numbers, but what its facets reflect.
 inline bool is_metal(Lobe lobe) {
   return lobe == Lobe::Conductor || lobe == Lobe::ColouredMetal || lobe == Lobe::FilmConductor;
@@ -213,6 +208,7 @@ inline CoatKind<R> coat_kind(const Layout& layout, const R* params, int node) {
   kind.polished = known && !rough;
   for (int j = 0; j < kWavelengths; ++j) {
     const bool any = kind.known && sum[j] > 0;
+    if (known) kind.colour[j] = std::min(sum[j], R(1));
     kind.held[j] = any ? kind.held[j] / sum[j] : R(0);
     kind.even[j] = any ? kind.even[j] / sum[j] : R(0);
   }
@@ -221,17 +217,36 @@ inline CoatKind<R> coat_kind(const Layout& layout, const R* params, int node) {
 
 }  // namespace detail
 
-/// What the coats above a node let through together at wavelength j, along a direction of |cosine|
-/// `z`.
-template <class R>
-inline R through_all(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above, int j, R z) {
-  R through = 1;
+/// Calls `visit(coat)` for the coats above a node that count together at wavelength j, the nearest
+/// first.
+template <class R, class Visit>
+inline void for_each_together(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above, int j,
+                              Visit visit) {
   for (int at = above.base; at >= 0;) {
     const CoatAbove<R>& one = coats.of[at];
-    through *= one.numbers.split(j, z).transmitted;
+    visit(one);
     at = one.nested[j] ? one.upper : -1;
   }
-  return through;
+}
+
+/// What they reflect and let through together, along a direction of |cosine| `z`.
+template <class R>
+inline FresnelSplit<R> split_together(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
+                                      int j, R z) {
+  FresnelSplit<R> all{R(0), R(1)};
+  for_each_together(coats, above, j, [&](const CoatAbove<R>& one) {
+    const FresnelSplit<R> e = one.numbers.split(j, z);
+    all.reflected += all.transmitted * e.reflected;
+    all.transmitted *= e.transmitted;
+  });
+  return all;
+}
+
+/// The base of a combiner that may be a coat, or -1.
+inline int coat_base(const Layout::Node& node) {
+  return node.lobe == Lobe::FresnelMix ? node.children[0]
+         : node.lobe == Lobe::Coat     ? node.children[1]
+                                       : -1;
 }
 
 /// The coats that G of a lobe depends on: those of its node, which is `above`, and what the lobe
@@ -273,13 +288,11 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
       const CoatAbove<R>* upper = above[i].ior ? &above[above[i].base] : nullptr;
       Spectrum<R> least;
       if (upper) {
-        // What glass sends back is known below coats that reflect F (materials/glass_coat.h).
-        const bool glass = detail::has_interfaces(layout, base);
         below.upper = upper->base;
         below.depth += upper->depth;
         for (int j = 0; j < kWavelengths; ++j) {
           below.nested[j] = relative_eta(ior[j], Vec3<R>{0, 0, 1}) > 1 && upper->numbers.eta[j] > 1;
-          if (below.nested[j] && !glass) least[j] = upper->numbers.least_below(j);
+          if (below.nested[j]) least[j] = upper->numbers.least_below(j);
         }
       }
       below.numbers = {ior, below.kind.held, below.kind.even, least};
@@ -298,34 +311,125 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
   }
 }
 
-/// What the mirrors of a polished coat reflect along `wo`, and which lobes of what lies right below
-/// get the weight of interfaces. `sent_back(lobe, ior)` is what materials/glass_coat.h says of a
-/// lobe; none where it is no interface, or nothing is known of it. What is sent back has passed the
-/// layer of the coat twice.
-template <class R, class Ask>
-inline void find_glass(const Layout& layout, const R* params, Vec3<R> wo, int base,
-                       PerNode<CoatAbove<R>>& coats, const Ask& sent_back) {
-  CoatAbove<R>& coat = coats.of[base];
-  Spectrum<R> share, sent;
+/// What is sent back along a direction by the coats over glass, besides their E: as a mirror does,
+/// and by a lobe of its own.
+template <class R>
+struct Sent {
+  Spectrum<R> mirrored{}, spread{};
+  Spectrum<R> all() const { return mirrored + spread; }
+};
+
+/// The coats right above what is glass, all or a part of it.
+template <class R>
+struct OverGlass {
+  std::array<CoatOnGlass<R>, kWavelengths> law;
+  Spectrum<R> colour{};  ///< what the coats leave of it
+  Sent<R> o{};           ///< along wo
+  Spectrum<R> mean{};    ///< of `spread` over the hemisphere of wo
+
+  /// How much of `o` the mirror has.
+  R mirror_share(int j) const {
+    const R all = o.mirrored[j] + o.spread[j];
+    return all > 0 ? o.mirrored[j] / all : R(0);
+  }
+};
+
+/// The same as models are asked for it.
+template <class R>
+struct CoatsOnGlass {
+  const PerNode<CoatAbove<R>>& coats;
+  const CoatAbove<R>& above;
+  const std::array<CoatOnGlass<R>, kWavelengths>& law;
+
+  FresnelSplit<R> split(int j, R z) const { return split_together(coats, above, j, z); }
+  /// What their layers let through along a direction of |cosine| `z` outside.
+  R layers(int j, R z) const {
+    R through = 1;
+    for_each_together(coats, above, j, [&](const CoatAbove<R>& one) {
+      if (one.layer) through *= detail::layer_transmittance(one.layer, j, z);
+    });
+    return through;
+  }
+};
+
+namespace detail {
+
+/// At wavelength j.
+template <class R>
+inline CoatOnGlass<R> coat_on_glass(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
+                                    int j) {
+  CoatOnGlass<R> on;
+  if (!(above.numbers.eta[j] > 1)) return on;
+  // F is that of the uppermost; of others little is left below it (materials/coat.h).
+  const CoatAbove<R>* top = &above;
+  R through = 1, before = 1;  // along the surface, with and without the uppermost
+  for_each_together(coats, above, j, [&](const CoatAbove<R>& one) {
+    top = &one;
+    before = through;
+    through *= one.numbers.split(j, R(0)).transmitted;
+  });
+  on.eta = top->numbers.eta[j];
+  on.steep = top->numbers.shape[j].steep * before;
+  on.normal = split_together(coats, above, j, R(1)).transmitted;
+  if (top == &above && above.kind.polished) return on;
+  for (int m = 0; m < kRest; ++m) {
+    const R z = R(kRestCosine[m]);
+    on.rest[m] =
+        split_together(coats, above, j, z).reflected - on.steep * fresnel_dielectric(z, on.eta);
+  }
+  return on;
+}
+
+}  // namespace detail
+
+/// Calls `visit(node, weight)` for what lies right below a coat, the child `base` of its combiner,
+/// and is no coat of index 1.
+template <class R, class Visit>
+inline void for_each_below(const Layout& layout, const R* params,
+                           const PerNode<CoatAbove<R>>& coats, int base, Visit visit) {
   PerNode<Spectrum<R>> weights;
   weights.of[base] = Spectrum<R>(R(1));
-  detail::for_each_part(layout, params, base, weights, [&](int lobe, const Spectrum<R>& weight) {
-    std::optional<SentBack<R>> back = sent_back(lobe, coat.ior);
-    if (!back) return;
-    coats.of[lobe].passed_once = coat.over_glass = true;
-    for (int j = 0; coat.layer && j < kWavelengths; ++j) {
-      const R through = detail::layer_transmittance(coat.layer, j, back->cosine[j]);
-      back->share[j] *= through * through;
-    }
-    share += weight;
-    sent += weight * back->share;
-  });
-  if (!coat.over_glass) return;
-  coat.mirrored = coat.o.reflected;
-  for (int j = 0; j < kWavelengths; ++j) {
-    if (!(relative_eta(coat.ior[j], Vec3<R>{0, 0, 1}) > 1)) continue;
-    if (wo.z < 0) coat.mirrored[j] *= std::max(1 - share[j], R(0));
-    coat.mirrored[j] += sent[j];
+  const auto part = [&](const auto& self, int node, const Spectrum<R>& weight) -> void {
+    const int below = coat_base(layout.nodes()[node]);
+    if (below < 0 || coats.of[below].base == below) return visit(node, weight);
+    weights.of[below] = weight;
+    detail::for_each_part(layout, params, below, weights,
+                          [&](int n, const Spectrum<R>& w) { self(self, n, w); });
+  };
+  detail::for_each_part(layout, params, base, weights,
+                        [&](int n, const Spectrum<R>& w) { part(part, n, w); });
+}
+
+/// Which coats are over glass, and which lobes get the weight of glass: those of which
+/// `knows(lobe, coats)` is true.
+template <class R, class Knows>
+inline void find_glass(const Layout& layout, const R* params, PerNode<CoatAbove<R>>& coats,
+                       PerNode<OverGlass<R>>& glass, const Knows& knows) {
+  for (int base = 0; base < int(layout.nodes().size()); ++base) {
+    CoatAbove<R>& coat = coats.of[base];
+    if (coat.base != base) continue;
+    bool asked = false;
+    for_each_below(layout, params, coats, base, [&](int node, const Spectrum<R>& weight) {
+      const Layout::Node& n = layout.nodes()[node];
+      const int below = coat_base(n);
+      if (below >= 0) {
+        for (int j = 0; j < kWavelengths; ++j)
+          if (coats.of[below].nested[j]) coat.glass[j] += weight[j] * coats.of[below].glass[j];
+        return;
+      }
+      if (!(traits(n.lobe) & Transmits) || !(traits(n.lobe) & Reflects)) return;
+      auto& law = glass.of[base].law;
+      for (int j = 0; !asked && j < kWavelengths; ++j)
+        law[j] = coat.numbers.repeated(j) && j > 0 && coat.upper < 0
+                     ? law[j - 1]
+                     : detail::coat_on_glass(coats, coat, j);
+      asked = true;
+      if (!knows(node, CoatsOnGlass<R>{coats, coat, law})) return;
+      coats.of[node].passed_once = coat.over_glass = true;
+      for (int j = 0; j < kWavelengths; ++j)
+        if (law[j].counts()) coat.glass[j] += weight[j];
+    });
+    for (R& share : coat.glass.v) share = std::min(share, R(1));
   }
 }
 

@@ -79,13 +79,14 @@ namespace mms::materials {
 template <class R>
 struct NodeWeight {
   Spectrum<R> other{R(1)}, lambert{R(1)};
-  Spectrum<R> glass{R(1)};  ///< for interfaces right below a polished coat
   /// Without the coats that count together right above, and what these let through along wi.
   Spectrum<R> bare{R(1)}, through_i{R(1)};
+  /// `bare`, but light passes the layers of these coats along directions outside alone.
+  Spectrum<R> crossing{R(1)};
 
   /// The weight of a child that is a part of the node.
   NodeWeight operator*(const Spectrum<R>& part) const {
-    return {other * part, lambert * part, glass * part, bare * part, through_i};
+    return {other * part, lambert * part, bare * part, through_i, crossing * part};
   }
 };
 
@@ -103,14 +104,10 @@ inline void weigh_fresnel_mix(const CoatAbove<R>& mix, Vec3<R> wo, Vec3<R> wi,
     base.other[j] = w.other[j] * std::min(o.through[j], i.through[j]);
     const R both = mix.through_o[j] * base.through_i[j];
     base.lambert[j] = mix.mean[j] > 0 ? base.bare[j] * both / mix.mean[j] : R(0);
-    base.glass[j] = base.other[j];
+    base.crossing[j] = mix.nested[j] ? w.crossing[j] : w.other[j];
     // Lobes that are known get their factor themselves.
     reflects[j] = mix.kind.known && eta > 1 ? R(1) : std::min(o.reflected[j], i.reflected[j]);
-    if (mix.over_glass && eta > 1) {
-      reflects[j] = mix.mirrored[j];
-      base.glass[j] =
-          w.other[j] * glass_factor(wo.z > 0, wi.z > 0, o.through[j], i.through[j], eta);
-    }
+    if (wo.z < 0 && eta > 1) reflects[j] *= 1 - mix.glass[j];
   }
   coat = w * reflects;
 }
@@ -181,13 +178,25 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
           w[b].other[j] *= along_o * along_i;
           w[b].lambert[j] *= along_o * along_i;
           w[b].bare[j] *= along_o * along_i;
-          w[b].glass[j] *= (wo.z > 0 ? along_o : R(1)) * (wi.z > 0 ? along_i : R(1));
+          w[b].crossing[j] *= (wo.z > 0 ? along_o : R(1)) * (wi.z > 0 ? along_i : R(1));
         }
         break;
       default:
         break;  // a lobe
     }
   }
+}
+
+/// The factor for interfaces that coats are passed by once, from those of their node.
+template <class R>
+inline Spectrum<R> glass_weight(const NodeWeight<R>& w, const CoatAbove<R>& above,
+                                const OverGlass<R>& over, Vec3<R> wo, Vec3<R> wi) {
+  Spectrum<R> f = w.other;
+  for (int j = 0; j < kWavelengths; ++j)
+    if (over.law[j].counts())
+      f[j] = w.crossing[j] * glass_factor(wo.z > 0, wi.z > 0, above.through_o[j], w.through_i[j],
+                                          over.law[j].normal);
+  return f;
 }
 
 /// The factor for deltas that reflect, from that of their node.
@@ -294,9 +303,8 @@ inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const PerNode<CoatAbove
   return f;
 }
 
-/// Factors for choosing a lobe before wi is known: `fresnel_mix` takes F and 1 - F at wo, over
-/// glass what its mirror reflects and the rest. 0 only where `weigh` is 0 for every wi. `coats` are
-/// null where there are none.
+/// Factors for choosing a lobe before wi is known: `fresnel_mix` takes F and 1 - F at wo. 0 only
+/// where `weigh` is 0 for every wi. `coats` are null where there are none.
 template <class R>
 inline void weigh_for_choice(const Layout& layout, const R* params, Vec3<R> wo,
                              const std::type_identity_t<PerNode<CoatAbove<R>>>* coats,
@@ -308,12 +316,16 @@ inline void weigh_for_choice(const Layout& layout, const R* params, Vec3<R> wo,
       const InterfaceSplits<R> s(ior, Vec3<R>{0, 0, 1}, cos_o);
       reflected = s.reflected;
       transmitted = s.transmitted;
-    } else if (above->over_glass) {
-      reflected = above->mirrored;
-      transmitted = Spectrum<R>::map([](R r) { return std::max(1 - r, R(0)); }, reflected);
-    } else {
-      reflected = above->o.reflected;
-      transmitted = above->o.through;
+      return;
+    }
+    reflected = above->o.reflected;
+    transmitted = above->o.through;
+    // Of light inside, glass gets all.
+    if (wo.z > 0) return;
+    for (int j = 0; j < kWavelengths; ++j) {
+      const R glass = above->numbers.eta[j] > 1 ? above->glass[j] : R(0);
+      reflected[j] *= 1 - glass;
+      transmitted[j] += glass * (1 - transmitted[j]);
     }
   };
   const auto nodes = layout.nodes();

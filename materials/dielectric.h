@@ -56,29 +56,38 @@ struct RoughInterface {
     return interface_terms(ior, wo, reflected, transmitted);
   }
 
-  /// Whether it is known what a polished coat of these indices sends back (materials/glass_coat.h).
-  bool knows_coat(const R* coat) const {
+  /// Whether it is known what coats send back, `coats` being as in SentBack::smooth.
+  template <class Coats>
+  bool knows_coats(const Coats& coats) const {
     bool known = true;
     for (int j = 0; j < kWavelengths; ++j) {
-      const R n = relative_eta(coat[j], Vec3<R>{0, 0, 1});
-      known &= in_glass_tables(rough_eta(j, Vec3<R>{0, 0, 1})) && (n <= 1 || in_glass_tables(n));
+      const auto& law = coats.law[j];
+      known &= in_glass_tables(rough_eta(j, Vec3<R>{0, 0, 1})) &&
+               (!law.counts() || in_glass_tables(law.eta));
     }
     return known || specular();
   }
-  /// That, of a coat of these indices.
-  SentBack<R> sent_back(Vec3<R> wo, const R* coat) const {
-    if (specular()) return SentBack<R>::smooth(terms(wo), wo, coat);
+  /// That, of light along `w`.
+  template <class Coats>
+  SentBack<R> sent_back(Vec3<R> w, const Coats& coats) const {
+    if (specular()) return SentBack<R>::smooth(terms(w), w, coats);
     Spectrum<R> eta;
-    for (int j = 0; j < kWavelengths; ++j) eta[j] = rough_eta(j, wo);
-    SentBack<R> back(wo, eta);
-    const Spectrum<R>& tint = wo.z > 0 ? reflected : transmitted;
+    for (int j = 0; j < kWavelengths; ++j) eta[j] = rough_eta(j, w);
+    SentBack<R> back(w, eta);
+    const Broadness<R> broad = Broadness<R>::facets(std::sqrt(facets.ax * facets.ay));
+    back.broad = broad.held + broad.even;
+    const bool outside = w.z > 0;
+    const Spectrum<R>& tint = outside ? reflected : transmitted;
     for (int j = 0; j < kWavelengths; ++j) {
-      const R n = relative_eta(coat[j], Vec3<R>{0, 0, 1});
-      if (repeated(j) && coat[j] == coat[j - 1])
+      const auto& law = coats.law[j];
+      if (!law.counts()) continue;
+      if (repeated(j) && law == coats.law[j - 1]) {
         back.share[j] = back.share[j - 1];
-      else if (n > 1)
-        back.share[j] = tint[j] * materials::sent_back(glass_tables(facets), facets.ax, facets.ay,
-                                                       wo, wo.z > 0 ? eta[j] : 1 / eta[j], n);
+        continue;
+      }
+      back.share[j] = tint[j] * materials::sent_back(glass_tables(facets), facets.ax, facets.ay, w,
+                                                     outside ? eta[j] : 1 / eta[j], law);
+      if (outside) back.share[j] *= coats.split(j, std::min(w.z, R(1))).transmitted;
     }
     return back;
   }

@@ -319,8 +319,9 @@ struct ShapeBasis {
   static constexpr int kMost = terms(kMostDegree);
 
   R value[kMost];
+  int count;  ///< of terms
 
-  ShapeBasis(const Shape<R>& shape, int degree) {
+  ShapeBasis(const Shape<R>& shape, int degree) : count(terms(degree)) {
     R along[kMostDegree + 1];
     along[0] = 1, along[1] = shape.u;
     for (int i = 2; i <= degree; ++i) along[i] = 2 * shape.u * along[i - 1] - along[i - 2];
@@ -336,6 +337,12 @@ struct ShapeBasis {
       const R next = 2 * w * across - before;
       before = across, across = next;
     }
+  }
+
+  R sum(const R* coefficients) const {
+    R sum = 0;
+    for (int t = 0; t < count; ++t) sum += coefficients[t] * value[t];
+    return sum;
   }
 };
 
@@ -425,17 +432,8 @@ struct InterfaceLoss {
     const int n2 = terms, n1 = n2 * coefficients(grid.direction),
               n0 = n1 * coefficients(grid.index);
     R sums[Basis::kMost] = {};
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j)
-        for (int l = 0; l < 4; ++l) {
-          const float* p = tables->stretched[falls()] + (a.first + i) * n0 + (n.first + j) * n1 +
-                           (d.first + l) * n2;
-          const R weight = a.weight[i] * n.weight[j] * d.weight[l];
-          for (int t = 0; t < terms; ++t) sums[t] += weight * R(p[t]);
-        }
-    R sum = 0;
-    for (int t = 0; t < terms; ++t) sum += sums[t] * basis.value[t];
-    return sum;
+    add_terms(sums, terms, tables->stretched[falls()], R(1), a, n0, n, n1, d, n2);
+    return basis.sum(sums);
   }
 
   R mean_ratio(R alpha) const {

@@ -8,8 +8,13 @@ namespace {
 
 }  // namespace
 
-const GlassTables kGgxGlass{{kGgxOutside, kGgxInside}, {kGgxBentOutside, kGgxBentInside}};
-const GlassTables kBeckmannGlass{{kBeckmannOutside, kBeckmannInside},
-                                 {kBeckmannBentOutside, kBeckmannBentInside}};
+const GlassTables kGgxGlass{{kGgxSteepOutside, kGgxSteepInside},
+                            {kGgxRestOutside, kGgxRestInside},
+                            {kGgxBentSteepOutside, kGgxBentSteepInside},
+                            {kGgxBentRestOutside, kGgxBentRestInside}};
+const GlassTables kBeckmannGlass{{kBeckmannSteepOutside, kBeckmannSteepInside},
+                                 {kBeckmannRestOutside, kBeckmannRestInside},
+                                 {kBeckmannBentSteepOutside, kBeckmannBentSteepInside},
+                                 {kBeckmannBentRestOutside, kBeckmannBentRestInside}};
 
 }  // namespace mms::materials

@@ -2,30 +2,33 @@
 #pragma once
 
 /// \file
-/// Interfaces, as of glass, below a polished coat. Light that changes sides passes the coat once,
-/// along its direction outside, of which T = 1 - F lets it through whichever way it goes; what the
-/// glass reflects outside passes twice, and inside never. So f of the bare glass gets
+/// Interfaces, as of glass, below coats. Light that changes sides passes a coat once, along its
+/// direction outside, of which T = 1 - E lets it through whichever way it goes (materials/coat.h);
+/// what the glass reflects outside passes twice, and inside never. So f of the bare glass gets
 ///
-///   across    T                                of the direction outside
-///   outside   T T' / max(T, T', T(1))          T(1) along the normal, where T is most, nearly
+///   across    T                 of the direction outside
+///   outside   T T' / T(1)       T(1) along the normal, where T is most, or nearly
 ///   inside    1
 ///
-/// all of it symmetric. What the coat lacks of that it sends back as the mirror that it is, which
-/// is reciprocal whatever it reflects:
+/// all of it symmetric; T is the product of all coats that count together. What the coats lack of
+/// that they send back:
 ///
-///   outside   F(o) + T(o) int f (1 - T' / max(T, T', T(1))) |cos i| di     over i outside
-///   inside    int f F(i) |cos i| di                                        over i outside
+///   outside   E(o) + S(o),  S = T(o) / T(1) int f (E(i) - E(1)) |cos i| di    over i outside
+///   inside    S(o) = int f E(i) |cos i| di                                    over i outside
 ///
-/// so that lossless glass below a lossless coat loses nothing. Where both are smooth it is exact;
-/// of facets tables hold both integrals (materials/tables/glass.cpp): within 1e-3 for roughness
-/// from 0.1, below that within 3e-3. Beyond indices of 1 and 4 all is as below other coats. What
-/// stretched facets have above round ones as wide along the direction is in further tables, as
-/// polynomials over the shape that they have along it.
+/// E by their own lobes, S as a mirror would, or the more of it S S' / (pi mean S) the broader both
+/// coat and glass are: all of it is reciprocal, and lossless glass below lossless coats loses
+/// nothing. Where glass is smooth that is exact; of facets tables hold the integrals for polished
+/// coats, and for four functions that the rest of E is a sum of (materials/tables/glass.cpp):
+/// within 1e-3 for roughness from 0.1, below that within 3e-3. Beyond indices of 1 and 4 all is as
+/// below other coats. What stretched facets have above round ones as wide along the direction is in
+/// further tables, as polynomials over the shape that they have along it.
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/spectrum.h"
+#include "materials/coat.h"
 #include "materials/energy.h"
 #include "materials/facets.h"
 #include "materials/fresnel.h"
@@ -34,14 +37,14 @@
 namespace mms::materials {
 
 namespace axes {
-/// Of glass below a polished coat: [0] seen from outside, [1] from inside.
+/// Of glass below coats: [0] seen from outside, [1] from inside.
 inline constexpr int kGlassAlpha[] = {18, 20}, kGlassIndex[] = {12, 15},
                      kGlassDirection[] = {44, 50}, kGlassCoat[] = {20, 14};
 /// The same of stretched facets, and the degree of polynomials over their shapes.
 struct BentGlassGrid {
   int width, index, direction, coat, degree;
 };
-inline constexpr BentGlassGrid kBentGlass[] = {{7, 7, 12, 6, 8}, {10, 10, 22, 7, 10}};
+inline constexpr BentGlassGrid kBentGlass[] = {{9, 9, 15, 6, 10}, {11, 11, 22, 7, 10}};
 /// The ends of the axes of both indices, 1.0002 and 4, and the least width, nearly a mirror's.
 inline constexpr double kLeastGlassIndex = 0.1, kMostGlassIndex = 0.8801117;
 inline constexpr double kLeastGlassAlpha = 0.0464;
@@ -81,13 +84,22 @@ inline R glass_direction(bool inside, R z, R s, R alpha, R glass) {
 }
 }  // namespace axes
 
-/// What the coat's mirror gets besides F(o) outside, and the root of what it gets inside: [width]
-/// [index of the glass][direction][index of the coat], for round facets.
+/// E of a coat of facets but for what is F is smooth over z: a sum of four functions, each 1 at one
+/// of these |cosines| and 0 at the others. The functions are sums of 1 and of L of three indices,
+/// within 2e-4 of L for indices from 1 to 4 (materials/tables/glass.cpp).
+inline constexpr int kRest = 4;
+inline constexpr double kRestCosine[kRest] = {0, 0.3, 0.6, 1};
+
+/// What int f E |cos i| di of `S` above is for each part of E: inside of F and of the four
+/// functions, outside of (F - F(1)) / T(1) and of what each has above its value along the normal.
+/// Inside, tables of F hold the root of it.
 struct GlassTables {
-  const float* sent[2];  ///< seen from outside, and from inside
-  /// Of stretched ones less that: [width][index of the glass][direction][index of
-  /// the coat][term of ShapeBasis].
-  const float* bent[2];
+  const float* steep[2];  ///< [width][index of the glass][direction][index of the coat]
+  const float* rest[2];   ///< [width][index of the glass][direction][function]
+  /// Of stretched facets less that of round ones: [width][index of the glass][direction]
+  /// [index of the coat][term of ShapeBasis], and [...][direction][function][term].
+  const float* bent_steep[2];
+  const float* bent_rest[2];
 };
 extern const GlassTables kGgxGlass, kBeckmannGlass;
 
@@ -106,44 +118,68 @@ inline bool in_glass_tables(R eta) {
   return eta > 1 && eta <= 4;
 }
 
-/// T(1) of a dielectric.
+/// The coats above glass, at one wavelength: E = steep F(z, eta) + the rest.
 template <class R>
-inline R through_normal(R eta) {
-  return 4 * eta / ((eta + 1) * (eta + 1));
-}
+struct CoatOnGlass {
+  R eta{1};  ///< above 1, or what follows does not count
+  R steep{};
+  R rest[kRest]{};  ///< at kRestCosine
+  R normal{1};      ///< T(1)
 
-/// The factor of f where T is `o` along one direction and `i` along the other, of a coat of
-/// relative index `eta` > 1.
+  bool operator==(const CoatOnGlass&) const = default;
+  bool counts() const { return eta > 1; }
+  bool polished() const {
+    return std::all_of(rest, rest + kRest, [](R x) { return x == 0; });
+  }
+};
+
+/// The factor of f where T is `o` along one direction and `i` along the other, and `normal` along
+/// the normal.
 template <class R>
-inline R glass_factor(bool o_outside, bool i_outside, R o, R i, R eta) {
+inline R glass_factor(bool o_outside, bool i_outside, R o, R i, R normal) {
   if (o_outside != i_outside) return o_outside ? o : i;
   if (!o_outside) return 1;
-  const R most = std::max({o, i, through_normal(eta)});
-  return most > 0 ? o * i / most : R(0);
+  return normal > 0 ? o * i / normal : R(0);
 }
 
-/// What of light along a direction the mirror of a coat of index `coat` gets besides F, of round
-/// facets as wide as `f` is along it, of index `glass`. \pre in_glass_tables of both indices
+/// The integral of GlassTables for each part.
 template <class R>
-inline R sent_back_by_round(const GlassTables& tables, const StretchedInterface<R>& f, bool inside,
-                            R glass, R coat) {
+struct SentParts {
+  R steep = 0, rest[kRest] = {};
+};
+
+/// Of round facets as wide as `f` is along its direction, of index `glass`, below `coat`. Parts
+/// that the coat has not are left at 0. \pre in_glass_tables of both indices
+template <class R>
+inline SentParts<R> round_parts(const GlassTables& tables, const StretchedInterface<R>& f,
+                                bool inside, R glass, const CoatOnGlass<R>& coat) {
   using namespace axes;
   const R alpha = f.like(), s = std::sqrt(f.x * f.x + f.y * f.y);
   const auto a = Stencil<R>::at(glass_alpha(alpha), kGlassAlpha[inside]);
   const auto n = Stencil<R>::at(glass_index(glass), kGlassIndex[inside]);
   const auto d =
       Stencil<R>::at(glass_direction(inside, f.z, s, alpha, glass), kGlassDirection[inside]);
-  const auto c = Stencil<R>::at(glass_index(coat), kGlassCoat[inside]);
-  const int n2 = coefficients(kGlassCoat[inside]), n1 = n2 * coefficients(kGlassDirection[inside]),
-            n0 = n1 * coefficients(kGlassIndex[inside]);
-  const R read = interpolate(tables.sent[inside], a, n0, n, n1, d, n2, c);
-  return inside ? read * read : std::max(read, R(0));
+  const int directions = coefficients(kGlassDirection[inside]),
+            indices = coefficients(kGlassIndex[inside]);
+  SentParts<R> parts;
+  if (coat.steep != 0) {
+    const auto c = Stencil<R>::at(glass_index(coat.eta), kGlassCoat[inside]);
+    const int n2 = coefficients(kGlassCoat[inside]), n1 = n2 * directions, n0 = n1 * indices;
+    const R read = interpolate(tables.steep[inside], a, n0, n, n1, d, n2, c);
+    parts.steep = inside ? read * read : read;
+  }
+  if (!coat.polished()) {
+    constexpr int n2 = kRest;
+    const int n1 = n2 * directions, n0 = n1 * indices;
+    add_terms(parts.rest, kRest, tables.rest[inside], R(1), a, n0, n, n1, d, n2);
+  }
+  return parts;
 }
 
-/// How much more it is of `f` itself.
+/// How much more they are of `f` itself.
 template <class R>
-inline R sent_back_by_shape(const GlassTables& tables, const StretchedInterface<R>& f, bool inside,
-                            R glass, R coat) {
+inline SentParts<R> shape_parts(const GlassTables& tables, const StretchedInterface<R>& f,
+                                bool inside, R glass, const CoatOnGlass<R>& coat) {
   using namespace axes;
   using Basis = ShapeBasis<R>;
   const BentGlassGrid& grid = kBentGlass[inside];
@@ -151,46 +187,57 @@ inline R sent_back_by_shape(const GlassTables& tables, const StretchedInterface<
   const auto a = Stencil<R>::at(glass_alpha(alpha), grid.width);
   const auto n = Stencil<R>::at(glass_index(glass), grid.index);
   const auto d = Stencil<R>::at(glass_direction(inside, f.z, s, alpha, glass), grid.direction);
-  const auto c = Stencil<R>::at(glass_index(coat), grid.coat);
-  const int terms = Basis::terms(grid.degree), n2 = terms * coefficients(grid.coat),
-            n1 = n2 * coefficients(grid.direction), n0 = n1 * coefficients(grid.index);
-  R sums[Basis::kMost] = {};
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j)
-      for (int k = 0; k < 4; ++k)
-        for (int l = 0; l < 4; ++l) {
-          const float* p = tables.bent[inside] + (a.first + i) * n0 + (n.first + j) * n1 +
-                           (d.first + k) * n2 + (c.first + l) * terms;
-          const R weight = a.weight[i] * n.weight[j] * d.weight[k] * c.weight[l];
-          for (int t = 0; t < terms; ++t) sums[t] += weight * R(p[t]);
-        }
+  const int directions = coefficients(grid.direction), indices = coefficients(grid.index);
   const Basis basis(f.shape(), grid.degree);
-  R sum = 0;
-  for (int t = 0; t < terms; ++t) sum += sums[t] * basis.value[t];
-  return sum;
+  const int terms = basis.count;
+  R sums[kRest * Basis::kMost] = {};
+  SentParts<R> parts;
+  if (coat.steep != 0) {
+    const auto c = Stencil<R>::at(glass_index(coat.eta), grid.coat);
+    const int n3 = terms, n2 = n3 * coefficients(grid.coat), n1 = n2 * directions,
+              n0 = n1 * indices;
+    add_terms(sums, terms, tables.bent_steep[inside], R(1), a, n0, n, n1, d, n2, c, n3);
+    parts.steep = basis.sum(sums);
+  }
+  if (!coat.polished()) {
+    std::fill(sums, sums + terms, R(0));
+    const int n2 = kRest * terms, n1 = n2 * directions, n0 = n1 * indices;
+    add_terms(sums, n2, tables.bent_rest[inside], R(1), a, n0, n, n1, d, n2);
+    for (int m = 0; m < kRest; ++m) parts.rest[m] = basis.sum(sums + m * terms);
+  }
+  return parts;
 }
 
-/// What of light along `w` the mirror of a coat of index `coat` gets besides F, of facets of the
-/// widths `ax` and `ay` and index `glass`. \pre in_glass_tables of both indices
+/// S of light along `w`, but for T(o), of facets of the widths `ax` and `ay` and index `glass`.
+/// \pre in_glass_tables of both indices
 template <class R>
-inline R sent_back(const GlassTables& tables, R ax, R ay, Vec3<R> w, R glass, R coat) {
+inline R sent_back(const GlassTables& tables, R ax, R ay, Vec3<R> w, R glass,
+                   const CoatOnGlass<R>& coat) {
   using namespace axes;
   const bool inside = w.z < 0;
   const R z = std::min(std::abs(w.z), R(1));
   const StretchedInterface<R> f = ax < ay ? StretchedInterface<R>{ay, ax, w.y, w.x, z}
                                           : StretchedInterface<R>{ax, ay, w.x, w.y, z};
-  R sent = sent_back_by_round(tables, f, inside, glass, coat);
-  if (ax != ay) sent = std::max(sent + sent_back_by_shape(tables, f, inside, glass, coat), R(0));
+  SentParts<R> parts = round_parts(tables, f, inside, glass, coat);
+  if (ax != ay) {
+    const SentParts<R> more = shape_parts(tables, f, inside, glass, coat);
+    parts.steep += more.steep;
+    for (int m = 0; m < kRest; ++m) parts.rest[m] += more.rest[m];
+  }
   // Next to 1, few directions are not let through.
   constexpr R x = R(kLeastGlassIndex * kLeastGlassIndex * kLeastGlassIndex * kLeastGlassIndex);
-  sent *= std::min((coat - 1) / (x * (coat + 1)), R(1));
-  return std::min(sent, R(1));
+  const R next_to_1 = std::min((coat.eta - 1) / (x * (coat.eta + 1)), R(1));
+  R sent = coat.steep * next_to_1 * parts.steep *
+           (inside ? R(1) : fresnel_split(R(1), coat.eta).transmitted);
+  for (int m = 0; m < kRest; ++m) sent += coat.rest[m] * parts.rest[m];
+  return limited(inside ? sent : sent / coat.normal, R(0), R(1));
 }
 
-/// The same at each wavelength, and the |cosine| outside of the light that it is, or nearly.
+/// S at each wavelength, and the |cosine| outside of the light that it is, or nearly.
 template <class R>
 struct SentBack {
   Spectrum<R> share{}, cosine{};
+  R broad{};  ///< how broad the glass is, as the sum of Broadness
 
   /// Nothing yet, of light along `wo`; `eta` as in SpecularTerms.
   SentBack(Vec3<R> wo, const Spectrum<R>& eta) {
@@ -201,15 +248,17 @@ struct SentBack {
     }
   }
 
-  /// Of an interface of deltas.
-  static SentBack smooth(const SpecularTerms<R>& terms, Vec3<R> wo, const R* coat) {
+  /// Of an interface of deltas. `coats.law[j]` is a CoatOnGlass, `coats.split(j, z)` E and T.
+  template <class Coats>
+  static SentBack smooth(const SpecularTerms<R>& terms, Vec3<R> wo, const Coats& coats) {
     SentBack back(wo, terms.eta);
     for (int j = 0; j < kWavelengths; ++j) {
-      const R n = relative_eta(coat[j], Vec3<R>{0, 0, 1});
-      const FresnelSplit<R> f = fresnel_split(back.cosine[j], n);
-      const R t = f.transmitted;
-      back.share[j] = wo.z < 0 ? terms.transmit_weight[j] * f.reflected
-                               : terms.reflect_weight[j] * (t - glass_factor(true, true, t, t, n));
+      if (!coats.law[j].counts()) continue;
+      const FresnelSplit<R> e = coats.split(j, back.cosine[j]);
+      const R t = e.transmitted;
+      back.share[j] = wo.z < 0 ? terms.transmit_weight[j] * e.reflected
+                               : terms.reflect_weight[j] *
+                                     (t - glass_factor(true, true, t, t, coats.law[j].normal));
     }
     return back;
   }

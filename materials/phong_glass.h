@@ -37,7 +37,11 @@ struct PhongGlass {
         transmitted(weight_at(p + 2 * kWavelengths + 1)) {}
 
   bool specular() const { return n > R(kMaxExponent); }
-  bool knows_coat(const R*) const { return specular(); }  ///< materials/glass_coat.h
+  /// Materials/glass_coat.h.
+  template <class Coats>
+  bool knows_coats(const Coats&) const {
+    return specular();
+  }
 
   Spectrum<R> estimate(Vec3<R> wo) const {
     return interface_estimate(ior, wo, reflected, transmitted, !specular());

@@ -50,4 +50,17 @@ inline R interpolate(const T* table, const Stencil<R>& a, int stride, const Rest
   return sum;
 }
 
+/// Adds `weight` times what the table holds for each of `terms` numbers, its innermost axis.
+/// `stride` is given for every axis.
+template <class T, class R>
+inline void add_terms(R* sums, int terms, const T* p, R weight) {
+  for (int t = 0; t < terms; ++t) sums[t] += weight * R(p[t]);
+}
+template <class T, class R, class... Rest>
+inline void add_terms(R* sums, int terms, const T* table, R weight, const Stencil<R>& a, int stride,
+                      const Rest&... rest) {
+  for (int k = 0; k < 4; ++k)
+    add_terms(sums, terms, table + (a.first + k) * stride, weight * a.weight[k], rest...);
+}
+
 }  // namespace mms::materials

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/glass_coat.h and writes them as C++ to the named file: run by
 // the build, in a minute of one core.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string>
@@ -54,44 +55,74 @@ double alpha_at(double place) {
   return std::pow(axes::kLeastGlassAlpha + (1 - axes::kLeastGlassAlpha) * place, 3);
 }
 
-/// A number for each index of coats on an axis.
-template <bool Inside, int Count>
-struct Coats {
-  static constexpr int kCount = Count;
-  std::array<double, kCount> of{};
+/// The four functions of kRestCosine: what is 1 at one of the cosines and 0 at the others, of 1 and
+/// of L of three indices.
+std::array<double, kRest> rest_functions(double z) {
+  const auto terms = [](double c) {
+    std::array<double, kRest> to{1};
+    constexpr double indices[] = {1.1, 1.4, 2};
+    for (int k = 0; k + 1 < kRest; ++k) to[k + 1] = fresnel_dielectric(held::cosine(c), indices[k]);
+    return to;
+  };
+  static const auto inverse = [&] {
+    std::vector<std::vector<double>> a(kRest, std::vector<double>(2 * kRest));
+    for (int m = 0; m < kRest; ++m) {
+      const auto at = terms(kRestCosine[m]);
+      for (int k = 0; k < kRest; ++k) a[k][m] = at[k];
+      a[m][kRest + m] = 1;
+    }
+    solve(a);
+    return a;
+  }();
+  const auto at = terms(z);
+  std::array<double, kRest> to{};
+  for (int m = 0; m < kRest; ++m)
+    for (int k = 0; k < kRest; ++k) to[m] += inverse[m][kRest + k] * at[k];
+  return to;
+}
 
-  Coats operator*(double x) const {
-    Coats product = *this;
+/// A number for each index of coats on an axis, and for each of the four functions.
+template <bool Inside, int Count>
+struct Parts {
+  std::array<double, Count + kRest> of{};
+
+  Parts operator*(double x) const {
+    Parts product = *this;
     for (double& v : product.of) v *= x;
     return product;
   }
-  Coats& operator+=(const Coats& b) {
-    for (int k = 0; k < kCount; ++k) of[k] += b.of[k];
+  Parts& operator+=(const Parts& b) {
+    for (std::size_t k = 0; k < of.size(); ++k) of[k] += b.of[k];
     return *this;
   }
+  double steep(int k) const { return of[k]; }
+  double rest(int m) const { return of[Count + m]; }
 
-  /// Fresnel's T along a direction of |cosine| `z`.
-  static Coats through(double z) {
-    Coats t;
-    for (int k = 0; k < kCount; ++k)
-      t.of[k] = fresnel_split(z, index_at(double(k) / (kCount - 1))).transmitted;
-    return t;
-  }
-  /// What the coats do not let through of light that leaves outside along a direction of |cosine|
-  /// `z`: F where it comes from inside, else what its factor lacks.
-  static Coats lacks(double z) {
-    static const Coats normal = through(1);
-    Coats lack = through(z);
-    for (int k = 0; k < kCount; ++k)
-      lack.of[k] = 1 - lack.of[k] / (Inside ? 1 : std::max(normal.of[k], lack.of[k]));
+  /// What GlassTables hold the integral of, at |cosine| `z` outside.
+  static Parts lacks(double z) {
+    static const Parts normal = values(1);
+    Parts lack = values(z);
+    if (Inside) return lack;
+    for (int k = 0; k < Count; ++k) lack.of[k] = (lack.of[k] - normal.of[k]) / (1 - normal.of[k]);
+    for (int m = 0; m < kRest; ++m) lack.of[Count + m] -= normal.of[Count + m];
     return lack;
+  }
+
+ private:
+  static Parts values(double z) {
+    Parts to;
+    for (int k = 0; k < Count; ++k)
+      to.of[k] = fresnel_dielectric(z, index_at(double(k) / (Count - 1)));
+    const auto rest = rest_functions(z);
+    std::copy(rest.begin(), rest.end(), to.of.begin() + Count);
+    return to;
   }
 };
 
-/// What the coats do not let through of further bounces: their mean over l outside (materials/
-/// energy.h), as a share of all of them.
+/// That of further bounces: its mean over l outside (materials/energy.h), as a share of all of
+/// them.
 template <bool Inside, int Count, class Facets>
-Coats<Inside, Count> further(const Facets& facets, double glass) {
+Parts<Inside, Count> further(const Facets& facets, double glass) {
   const InterfaceTables& tables = losses_of(facets);
   const InterfaceLoss<double> outside{&tables, facets.ax, facets.ay, glass},
       inside{&tables, facets.ax, facets.ay, 1 / glass};
@@ -100,7 +131,7 @@ Coats<Inside, Count> further(const Facets& facets, double glass) {
   const double across = Inside ? transmitted_share(mean_inside, mean_outside, 1 / glass)
                                : transmitted_share(mean_outside, mean_inside, glass);
   const bool round = facets.ax == facets.ay;
-  Coats<Inside, Count> sum;
+  Parts<Inside, Count> sum;
   double all = 0;
   const int panels = round ? 24 : 12, turns = round ? 1 : 6;
   for (int n = 0; n < 8 * panels; ++n) {  // z^2 + alpha^2 spread evenly over its logarithm
@@ -113,27 +144,24 @@ Coats<Inside, Count> further(const Facets& facets, double glass) {
       l += outside.at({s * std::cos(turn), s * std::sin(turn), z}) / turns;
     }
     const double share = l * (z2 + a2) * gauss<8>().w[n % 8];
-    sum += Coats<Inside, Count>::lacks(z) * share;
+    sum += Parts<Inside, Count>::lacks(z) * share;
     all += share;
   }
   return sum * ((Inside ? across : 1 - across) / all);
 }
 
-/// What coats send back of light along `w`, z > 0.
+/// The integrals for light along `w`, z > 0.
 template <bool Inside, int Count, class Facets>
-Coats<Inside, Count> sent_back(const Facets& facets, double glass, Vec3d w,
-                               const Coats<Inside, Count>& further) {
-  using All = Coats<Inside, Count>;
+Parts<Inside, Count> sent_back(const Facets& facets, double glass, Vec3d w,
+                               const Parts<Inside, Count>& further) {
+  using All = Parts<Inside, Count>;
   const double eta = Inside ? 1 / glass : glass;
-  All sent = interface_mean(facets, eta, w, 16, [](const Way& up, const Way& down) {
+  All sent = interface_mean(facets, eta, w, Inside ? 16 : 24, [](const Way& up, const Way& down) {
     const Way& out = Inside ? down : up;
     const double leaves = out.share * (1 - out.taken);
     return leaves > 0 ? All::lacks(out.cosine) * leaves : All();
   });
   sent += further * InterfaceLoss<double>{&losses_of(facets), facets.ax, facets.ay, eta}.at(w);
-  if (Inside) return sent;
-  const All through = All::through(w.z);
-  for (int k = 0; k < Count; ++k) sent.of[k] *= through.of[k];
   return sent;
 }
 
@@ -144,44 +172,61 @@ double cosine_at(bool inside, double place, double alpha, double glass) {
   });
 }
 
-/// Of stretched facets less what the tables of round ones hold.
+/// What is in both tables of stretched facets.
+struct Bent {
+  std::vector<float> steep, rest;
+};
+/// From those of round ones.
 template <bool Inside, template <class> class Distribution>
-std::vector<float> bent_side(const GlassTables& round) {
+Bent bent_side(const GlassTables& round) {
   constexpr axes::BentGlassGrid grid = axes::kBentGlass[Inside];
-  constexpr int coats = grid.coat;
+  constexpr int coats = grid.coat, columns = coats + kRest;
   const ShapeFit shapes(grid.degree);
   const int count = shapes.count(), terms = shapes.terms();
-  Grid fitted({grid.width, grid.index, grid.direction, coats, terms},
-              [](const double*) { return 0.0; });
+  const auto zero = [](const double*) { return 0.0; };
+  Grid steep({grid.width, grid.index, grid.direction, coats, terms}, zero);
+  Grid rest({grid.width, grid.index, grid.direction, kRest * terms}, zero);
   parallel(grid.width * grid.index, [&](int i) {
     const double like = alpha_at(double(i / grid.index) / (grid.width - 1));
     const double glass = index_at(double(i % grid.index) / (grid.index - 1));
-    std::vector<std::vector<double>> values(grid.direction * coats, std::vector<double>(count));
+    std::vector<std::vector<double>> values(grid.direction * columns, std::vector<double>(count));
     for (int shape = 0; shape < count; ++shape) {
       auto seen = shapes.facets(shape);
       const double x = seen.x, y = seen.y, along = std::hypot(seen.wide * x, seen.narrow * y);
       const double root = like / (along + like * (1 - along));  // the inverse of like()
       seen.wide *= root, seen.narrow *= root;
       const Distribution<double> facets{{seen.wide, seen.narrow}};
-      const auto rest = further<Inside, coats>(facets, glass);
+      const auto further_bounces = further<Inside, coats>(facets, glass);
       for (int d = 0; d < grid.direction; ++d) {
         const double z = std::max(cosine_at(Inside, double(d) / (grid.direction - 1), like, glass),
                                   kLeast * root);
         const double s = std::sqrt(1 - z * z);
         seen.x = x * s, seen.y = y * s, seen.z = z;
-        const auto sent = sent_back<Inside, coats>(facets, glass, {seen.x, seen.y, z}, rest);
-        for (int k = 0; k < coats; ++k)
-          values[d * coats + k][shape] =
-              sent.of[k] -
-              sent_back_by_round(round, seen, Inside, glass, index_at(double(k) / (coats - 1)));
+        const auto sent =
+            sent_back<Inside, coats>(facets, glass, {seen.x, seen.y, z}, further_bounces);
+        CoatOnGlass<double> coat{.steep = 1, .rest = {1, 1, 1, 1}};
+        const auto value = [&](int column) -> double& {
+          return values[d * columns + column][shape];
+        };
+        for (int k = 0; k < coats; ++k) {
+          coat.eta = index_at(double(k) / (coats - 1));
+          value(k) = sent.steep(k) - round_parts(round, seen, Inside, glass, coat).steep;
+        }
+        const auto parts = round_parts(round, seen, Inside, glass, coat);
+        for (int m = 0; m < kRest; ++m) value(coats + m) = sent.rest(m) - parts.rest[m];
       }
     }
-    double* p = &fitted.values[std::size_t(i) * grid.direction * coats * terms];
-    for (const auto& of_shapes : values)
-      for (int t = 0; t < terms; ++t) *p++ = shapes.term(t, of_shapes.data());
+    for (int d = 0; d < grid.direction; ++d)
+      for (int column = 0; column < columns; ++column)
+        for (int t = 0; t < terms; ++t) {
+          const double term = shapes.term(t, values[d * columns + column].data());
+          const int at = i * grid.direction + d, m = column - coats;
+          (m < 0 ? steep.values[(at * coats + column) * terms + t]
+                 : rest.values[(at * kRest + m) * terms + t]) = term;
+        }
   });
-  const std::vector<double> spline = fitted.spline(1);
-  return {spline.begin(), spline.end()};
+  const std::vector<double> of_steep = steep.spline(1), of_rest = rest.spline(1);
+  return {{of_steep.begin(), of_steep.end()}, {of_rest.begin(), of_rest.end()}};
 }
 
 template <bool Inside, template <class> class Distribution>
@@ -190,27 +235,39 @@ void write_side(std::FILE* to, const std::string& name) {
   constexpr int widths = kGlassAlpha[Inside], indices = kGlassIndex[Inside],
                 directions = kGlassDirection[Inside], coats = kGlassCoat[Inside];
   const std::string side = Inside ? "Inside" : "Outside";
-  Grid grid({widths, indices, directions, coats}, [](const double*) { return 0.0; });
+  const auto zero = [](const double*) { return 0.0; };
+  Grid steep({widths, indices, directions, coats}, zero);
+  Grid rest({widths, indices, directions, kRest}, zero);
   parallel(widths * indices, [&](int i) {
     const double alpha = alpha_at(double(i / indices) / (widths - 1));
     const double glass = index_at(double(i % indices) / (indices - 1));
     const Distribution<double> facets{{alpha, alpha}};
-    const auto rest = further<Inside, coats>(facets, glass);
+    const auto further_bounces = further<Inside, coats>(facets, glass);
     for (int d = 0; d < directions; ++d) {
       const double z =
           std::max(cosine_at(Inside, double(d) / (directions - 1), alpha, glass), kLeast * alpha);
-      const auto sent = sent_back<Inside, coats>(facets, glass, {std::sqrt(1 - z * z), 0, z}, rest);
+      const auto sent =
+          sent_back<Inside, coats>(facets, glass, {std::sqrt(1 - z * z), 0, z}, further_bounces);
+      const int at = i * directions + d;
       for (int k = 0; k < coats; ++k)
-        grid.values[(i * directions + d) * coats + k] =
-            Inside ? std::sqrt(std::max(sent.of[k], 0.0)) : sent.of[k];
+        steep.values[at * coats + k] =
+            Inside ? std::sqrt(std::max(sent.steep(k), 0.0)) : sent.steep(k);
+      for (int m = 0; m < kRest; ++m) rest.values[at * kRest + m] = sent.rest(m);
     }
   });
-  const std::vector<double> spline = grid.spline();
-  const std::vector<float> round(spline.begin(), spline.end());
-  write_numbers(to, name + side, round, 6);
+  const auto write = [&](const std::string& part, const std::vector<double>& spline, int digits) {
+    std::vector<float> numbers(spline.begin(), spline.end());
+    write_numbers(to, name + part + side, numbers, digits);
+    return numbers;
+  };
+  const auto round_steep = write("Steep", steep.spline(), 6);
+  const auto round_rest = write("Rest", rest.spline(1), 6);
   GlassTables tables{};
-  tables.sent[Inside] = round.data();
-  write_numbers(to, name + "Bent" + side, bent_side<Inside, Distribution>(tables), 4);
+  tables.steep[Inside] = round_steep.data();
+  tables.rest[Inside] = round_rest.data();
+  const Bent bent = bent_side<Inside, Distribution>(tables);
+  write_numbers(to, name + "BentSteep" + side, bent.steep, 4);
+  write_numbers(to, name + "BentRest" + side, bent.rest, 4);
 }
 
 }  // namespace

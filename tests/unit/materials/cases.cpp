@@ -102,6 +102,15 @@ std::vector<Case> smooth_cases() {
                       ramp(0.2, 0.9)),
                   microfacet(1, 0), 2.2));
   put("coat over glass of a lower index", coat(mirror(1), dielectric(0.7, 0.4), 0, 0, 1.5));
+  put("rough coat over rough glass",
+      coat(microfacet(ramp(0.9, 1), 0.5), dielectric(ramp(1.6, 1.4), 0.6, ramp(0.5, 1)), 0.2,
+           ramp(0.1, 1), ramp(1.4, 1.7)));
+  put("rough coat over a mixture with glass of stretched facets",
+      fresnel_mix(mix(matte(0.8), beckmann_dielectric(1.3, 0.5, 1, 1, 0.7), ramp(0.4, 0.9)),
+                  mix(mirror(1), glossy(1, 10), 0.7), 1.8));
+  put("rough coats over glass",
+      coat(microfacet(1, 0.4, 0.5), fresnel_mix(dielectric(1.5, 0.4), beckmann(1, 0.7), 1.3), 0.1,
+           ramp(0.1, 1), 1.7));
   put("two coats over glass",
       coat(mirror(1), fresnel_mix(dielectric(1.5, 0.4), mirror(1), 1.3), 0, 0, 1.7));
   return c;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Glass below a polished coat: what both together keep, from outside and from inside. The first
-// bounce of rough glass is as Walter et al. (2007) write it, times what the coat lets through.
+// Glass below coats: what both together keep, from outside and from inside. The first bounce of
+// rough glass is as Walter et al. (2007) write it, times what the coats let through.
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <iterator>
 #include <set>
 #include <string>
+#include <utility>
 
+#include "materials/coat.h"
 #include "tests/unit/materials/albedo.h"
 #include "tests/unit/materials/cases.h"
 #include "tests/unit/materials/walter.h"
@@ -163,6 +165,125 @@ void check_stretched(const std::string& name, Lobe lobe) {
 TEST_CASE("stretched glass under a polished coat is lossless within 1e-3, from both sides") {
   check_stretched<GgxFacets>("dielectric", Lobe::Dielectric);
   check_stretched<BeckmannFacets>("beckmann_dielectric", Lobe::BeckmannDielectric);
+}
+
+namespace {
+
+/// A coat that is white and lossless, and what it lets through.
+struct Coat {
+  Material top;
+  double ior;
+  materials::CoatShape<double> shape;
+
+  Coat(Material m, double index, double alpha)
+      : top(std::move(m)),
+        ior(index),
+        shape(alpha > 0 ? materials::Broadness<double>::facets(alpha)
+                        : materials::Broadness<double>(),
+              materials::fresnel_dielectric_diffuse(index)) {}
+
+  /// The `k`th, of any kind; polished where that is asked for.
+  static Coat any(int k, bool polished, double steps) {
+    const double ior = between(1.03, 3, place(k, steps)), roughness = 0.1 + 0.9 * place(k, 0.3371);
+    const double alpha = roughness * roughness, gloss = 0.5 * (1 / (alpha * alpha) - 1);
+    if (polished) return {mirror(1), ior, 0};
+    if (k % 3 == 0) return {glossy(1, gloss), ior, alpha};
+    return {k % 3 == 1 ? microfacet(1, roughness) : beckmann(1, roughness), ior, alpha};
+  }
+  double through(double z) const { return shape.split(std::abs(z), ior).transmitted; }
+  Material over(const Material& base) const { return coat(top, base, 0, 0, ior); }
+};
+
+/// What comes back of light along `wo` from `m`, which is glass below coats that let `through(z)`
+/// pass.
+template <class Through>
+double rough_albedo(const Material& m, double glass, double roughness, double anisotropy, Vec3d wo,
+                    const Through& through) {
+  const materials::Layout layout = m.layout();
+  const auto p = m.params<double>();
+  const Bsdf<double> bsdf(layout, p.data());
+  const bool outside = wo.z > 0;
+  double sum = deltas(m, wo);
+  // Lobes of coats are about where glass reflects to.
+  if (outside) sum += hemisphere(bsdf, wo, true, wo.z * wo.z, kSanitized ? 8 : 14);
+  if (roughness == 0) return sum + (outside ? 0 : hemisphere(bsdf, wo, false, wo.z * wo.z, 14));
+  const auto alpha = materials::Alpha<double>::from(roughness, anisotropy);
+  const auto weight = [&](Vec3d wi) {
+    return wi.z > 0 ? 1 : through(outside ? wo.z : wi.z);  // of inside to inside
+  };
+  return sum + glass_albedo(m, GgxFacets{alpha.ax, alpha.ay}, glass, wo, weight, /*far=*/outside);
+}
+
+}  // namespace
+
+TEST_CASE("white glass under rough coats is lossless within 1e-3, from both sides") {
+  for (const double anisotropy : {0.0, 0.5, -0.9}) {
+    Range range;
+    for (int k = 1; k <= (kSanitized ? 3 : anisotropy == 0 ? 120 : 30); ++k) {
+      const double glass = between(1.02, 3.9, place(k, 0.8192)), degrees = angle(k, glass);
+      const bool smooth = anisotropy == 0 && k % 4 == 0;
+      const double roughness = smooth ? 0 : 0.15 + 0.85 * place(k, 0.6710);
+      const Coat coat = Coat::any(k, false, 0.5497);
+      const Material m = coat.over(dielectric(glass, roughness, 1, 1, anisotropy));
+      const double a = rough_albedo(m, glass, roughness, anisotropy, direction(degrees, 0.4),
+                                    [&](double z) { return coat.through(z); });
+      range.add(a, text(glass, coat.ior, roughness, degrees));
+    }
+    const double bound = std::abs(anisotropy) > 0.5 ? 2.5e-3 : 1e-3;
+    CHECK(range.most < 1 + bound);
+    CHECK(range.least > 1 - bound);
+    MESSAGE("anisotropy ", anisotropy, ": albedo - 1 from ", range.text());
+  }
+}
+
+TEST_CASE("white glass under two coats is lossless within 1e-3, from both sides") {
+  Range range;
+  for (int k = 1; k <= (kSanitized ? 4 : 120); ++k) {
+    const double glass = between(1.02, 3.9, place(k, 0.8192)), degrees = angle(k, glass);
+    const double roughness = k % 5 == 0 ? 0 : 0.15 + 0.85 * place(k, 0.6710);
+    const Coat upper = Coat::any(k, k % 4 < 2, 0.5497),
+               lower = Coat::any(k + 1, k % 4 % 3 == 0, 0.3117);
+    // The lower one meets what the upper has refracted (materials/coat.h).
+    Coat below = lower;
+    below.shape = lower.shape.below(std::sqrt(1 - 1 / (upper.ior * upper.ior)), lower.ior);
+    const Material m = upper.over(lower.over(dielectric(glass, roughness)));
+    const double a = rough_albedo(m, glass, roughness, 0, direction(degrees, 0.4),
+                                  [&](double z) { return upper.through(z) * below.through(z); });
+    const std::string at =
+        text(glass, lower.ior, roughness, degrees) + ", upper " + std::to_string(upper.ior);
+    range.add(a, at);
+  }
+  CHECK(range.most < 1 + 1e-3);
+  CHECK(range.least > 1 - 1e-3);
+  MESSAGE("albedo - 1 from ", range.text());
+}
+
+TEST_CASE("what a nearly polished coat sends back into glass is nearly what a polished one does") {
+  for (const double degrees : {130.0, 150.0, 180.0}) {
+    const Vec3d wo = direction(degrees, 0.4);
+    const auto mirrored = [&](const Material& top) {
+      return deltas(coat(top, dielectric(1.5, 0.5), 0, 0, 1.5), wo);
+    };
+    const double polished = mirrored(mirror(1));
+    CHECK(mirrored(microfacet(1, 0.02)) == doctest::Approx(polished).epsilon(0.03));
+    // The rougher it is, the more of it is spread.
+    double before = polished;
+    for (const double roughness : {0.02, 0.1, 0.3, 0.8}) {
+      const double share = mirrored(microfacet(1, roughness));
+      CHECK(share < before);
+      CHECK(share > 0);
+      before = share;
+    }
+  }
+}
+
+TEST_CASE("a mixture of glass and matte under a rough coat is lossless") {
+  for (const double share : {0.2, 0.7})
+    for (double degrees : {0.0, 50.0, 85.0, 100.0, 130.0, 175.0}) {
+      const Material m = coat(microfacet(1, 0.4), mix(matte(1), dielectric(1.7), share), 0, 0, 1.4);
+      const double a = albedo(m, degrees) + deltas(m, direction(degrees, 0));
+      CHECK_MESSAGE(std::abs(a - 1) < 2e-4, share, " at ", degrees, ": ", a - 1);
+    }
 }
 
 TEST_CASE("a mixture of glass and matte under a polished coat is lossless") {

@@ -114,12 +114,12 @@ struct Interface {
   }
 };
 
-/// All that comes back of light along `wo` from either side of `m`, without deltas: `facets` of
-/// that index, whose value is about that times `weight`, of a direction that is turned to +z as
-/// `wo` is.
+/// All that comes back of light along `wo` from either side of `m`, or from the `far` one alone,
+/// without deltas: `facets` of that index, whose value is about that times `weight`, of a direction
+/// that is turned to +z as `wo` is.
 template <class Facets, class Weight>
 double glass_albedo(const Material& m, const Facets& facets, double ior, Vec3d wo,
-                    const Weight& weight) {
+                    const Weight& weight, bool far = false) {
   const materials::Layout layout = m.layout();
   const auto p = m.params<double>();
   const materials::Bsdf<double> bsdf(layout, p.data());
@@ -132,7 +132,7 @@ double glass_albedo(const Material& m, const Facets& facets, double ior, Vec3d w
   double rest = 0;
   const int panels = azimuths == 1 ? 48 : 12;  // a ridge of what is lost is as narrow as alpha
   for (const double to : {1.0, -1.0})
-    for (int a = 0; a < azimuths; ++a) {
+    for (int a = 0; a < azimuths && !(far && to > 0); ++a) {
       const double phi = (a + 0.5) / azimuths * kPi<double> / 2;
       const Vec3d across{std::copysign(std::cos(phi), -up.x), std::copysign(std::sin(phi), up.y),
                          0};
@@ -149,7 +149,8 @@ double glass_albedo(const Material& m, const Facets& facets, double ior, Vec3d w
             },
             double(k) / panels, (k + 1.0) / panels);
     }
-  return face.once(up, kSanitized ? 100 : 200, weight) + rest;
+  const auto asked = [&](Vec3d w) { return far && w.z > 0 ? 0.0 : weight(w); };
+  return face.once(up, kSanitized ? 100 : 200, asked) + rest;
 }
 
 }  // namespace mms::test
