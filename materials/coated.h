@@ -40,9 +40,10 @@ namespace axes {
 inline constexpr int kCoatedMatte = 5, kSpread = 32;
 /// s of the coats that lobes lie below in the tables.
 inline constexpr double kHeld[] = {0, 0.2, 0.5, 0.8, 1}, kStretchedHeld[] = {0, 0.3, 0.7, 1};
-/// Of stretched facets; the axis of the width is that of an interface.
-inline constexpr int kStretchedCoatAlpha = 17, kStretchedCoatIndex = 11,
-                     kStretchedCoatDirection = 25, kStretchedCoatDegree = 12;
+/// Of stretched facets; the axis of the width is that of an interface. As a coat, E changes fast
+/// where the index is next to 1.
+inline constexpr int kStretchedCoatAlpha = 22, kStretchedCoatIndex = 14, kStretchedUnderIndex = 11,
+                     kStretchedCoatDirection = 28, kStretchedCoatDegree = 12;
 inline constexpr double kLeastCoatIndex = 0.1, kMostCoatIndex = 0.8801117;  ///< of 1.0002 and 4
 
 template <class R>
@@ -125,15 +126,16 @@ struct FacetsAlong {
     return along / (1 + (along - std::sqrt(area)));
   }
 
-  /// The sum of `count` tables, by weights, for relative index `eta` > 1 and a direction at `place`
-  /// of axes::coat_direction.
-  R difference(const float* const* tables, const R* weights, int count, R eta, R place) const {
+  /// The sum of `count` tables of so many indices, by weights, for relative index `eta` > 1 and a
+  /// direction at `place` of axes::coat_direction.
+  R difference(const float* const* tables, const R* weights, int count, int indices, R eta,
+               R place) const {
     using namespace axes;
     using Basis = ShapeBasis<R>;
     constexpr int terms = Basis::terms(kStretchedCoatDegree),
-                  n1 = terms * coefficients(kStretchedCoatDirection),
-                  n0 = n1 * coefficients(kStretchedCoatIndex);
-    const auto n = Stencil<R>::at(stretched_coat_index(eta), kStretchedCoatIndex);
+                  n1 = terms * coefficients(kStretchedCoatDirection);
+    const int n0 = n1 * coefficients(indices);
+    const auto n = Stencil<R>::at(stretched_coat_index(eta), indices);
     const auto d = Stencil<R>::at(place, kStretchedCoatDirection);
     R sums[terms] = {};
     for (int b = 0; b < count; ++b)
@@ -214,8 +216,8 @@ struct CoatedLobe {
       // Below the axis few directions are not let through.
       constexpr R least = R(axes::kLeastCoatIndex * axes::kLeastCoatIndex * axes::kLeastCoatIndex *
                             axes::kLeastCoatIndex);
-      above += along.difference(tables->under_stretched, of_shape.data(), int(of_shape.size()), eta,
-                                place) *
+      above += along.difference(tables->under_stretched, of_shape.data(), int(of_shape.size()),
+                                axes::kStretchedUnderIndex, eta, place) *
                std::min((eta - 1) / (least * (eta + 1)), R(1));
     }
     return std::max(through + varies * above, through / 2);
@@ -226,7 +228,8 @@ struct CoatedLobe {
     R quotient = interpolate_coat(tables->coat, width, eta, place);
     if (stretched()) {
       const R one = 1;
-      quotient += along.difference(&tables->coat_stretched, &one, 1, eta, place);
+      quotient +=
+          along.difference(&tables->coat_stretched, &one, 1, axes::kStretchedCoatIndex, eta, place);
     }
     return reflected * std::exp(limited(quotient * varies, R(-20), R(40)));
   }

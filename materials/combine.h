@@ -25,8 +25,8 @@
 ///                               2001, where the coat is polished)
 /// so that a lossless base under a lossless coat is 1 in every direction: round facets, `glossy`
 /// and both mattes under any such coat within 1e-4 for indices from 1.005 to 4 and roughness from
-/// 0.05, beyond these 4e-4, and towards index 1 or 8 1e-3; stretched facets in it or under it
-/// 1.5e-4, beyond anisotropy 0.8 6e-4, above index 4 4e-3, and in a coat of index 1.001 5e-3. All
+/// 0.05, beyond these 4e-4, and towards index 1 or 8 1e-3; stretched facets in it or under it 1e-4
+/// up to anisotropy 0.5, 4e-4 at 0.9, above index 4 4e-3, and in a coat of index 1.001 5e-3. All
 /// other lobes get
 ///   base: min(T, T')
 /// which never gains, as it is below T. All of these are symmetric. A specular coat over a Lambert
@@ -39,16 +39,17 @@
 /// the index above is next to 1. Of more than six coats g is the product of each alone: 5e-3. A
 /// coat whose index is 1 at every wavelength is not there.
 ///
-/// Where the index is above 1 and the coat polished, that is of mirrors alone, interfaces right
-/// below get what passes it once if light changes sides, twice if it stays outside, and never if it
-/// stays inside, along the directions outside; the same of the layer of a `coat`. The mirrors
-/// reflect the rest (materials/glass_coat.h), and seen from inside nothing else:
-///   base: T(outside), T T' / max(T, T', T(1)), or 1
+/// Where the index is above 1, interfaces right below the coat, or below several, get what passes
+/// it once if light changes sides, twice if it stays outside, and never if it stays inside, along
+/// the directions outside; the same of the layer of a `coat`. The coat sends back the rest
+/// (materials/glass_coat.h), and seen from inside nothing else:
+///   base: T(outside), T T' / T(1), or 1
 /// so that lossless glass is 1 from both sides: smooth 1e-5 (`dielectric`, `beckmann_dielectric`,
-/// `film_dielectric`, `phong_glass`, `refraction`), round facets of roughness from 0.1 1e-3, below
-/// it 3e-3, for indices of both between 1 and 4; stretched ones 1e-3 up to anisotropy 0.5, 2.5e-3
-/// at 0.9. Under rough coats, and `phong_glass` that is rough, interfaces get min(T, T') as if both
-/// directions were outside, and lose up to a tenth about the critical angle.
+/// `film_dielectric`, `phong_glass`, `refraction`), facets of roughness from 0.1 1e-3, below it
+/// 3e-3, for indices of both between 1 and 4; stretched ones 1e-3 up to anisotropy 0.5, 2.5e-3 at
+/// 0.9; below a polished coat under another of index below 1.03, 3e-3. `phong_glass` that is rough,
+/// and other indices, get min(T, T') as if both directions were outside, and lose up to a tenth
+/// about the critical angle.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/glass_coat.h and writes them as C++ to the named file: run by
-// the build, in a minute of one core.
+// the build, in four minutes of one core.
 #include <algorithm>
 #include <array>
 #include <cstdio>

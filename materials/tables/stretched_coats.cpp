@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of stretched facets as a coat and under one (materials/coated.h): five minutes of one
-// core.
+// The tables of stretched facets as a coat and under one (materials/coated.h).
 #include <iterator>
 #include <numbers>
 #include <numeric>
@@ -174,22 +173,21 @@ double index_at(double place) {
 /// Coats that a lobe lies below, by how broad they are.
 constexpr int kUnder = std::size(axes::kStretchedHeld);
 
-/// As a coat of index `eta`, and below others, along all directions.
-struct OfIndex {
-  Values coat, under[kUnder];
+/// As a coat of index `eta`, along all directions.
+template <class Lobe>
+Values as_coat(const Lobe& lobe, double eta, const Broadness<double>& broad) {
+  return scaled_coat(lobe, CoatShares(
+                               kNodes, [&](int o) { return lobe.directions().at(o).z; }, eta, broad)
+                               .reflected);
+}
 
-  template <class Lobe>
-  OfIndex(const Lobe& lobe, double eta, const Broadness<double>& broad) {
-    const auto shares = [&](const Broadness<double>& of) {
-      return CoatShares(
-          kNodes, [&](int o) { return lobe.directions().at(o).z; }, eta, of);
-    };
-    coat = scaled_coat(lobe, shares(broad).reflected);
-    for (int b = 0; b < kUnder; ++b) {
-      under[b] = scaled_below(lobe, shares({axes::kStretchedHeld[b], 0}).through);
-    }
-  }
-};
+/// Below a coat of index `eta` and a broadness of axes::kStretchedHeld.
+template <class Lobe>
+Values below_coat(const Lobe& lobe, double eta, double held) {
+  return scaled_below(
+      lobe,
+      CoatShares(kNodes, [&](int o) { return lobe.directions().at(o).z; }, eta, {held, 0}).through);
+}
 
 /// Of stretched facets less of round ones, for each index and direction at all shapes.
 struct Differences {
@@ -197,22 +195,8 @@ struct Differences {
 
   explicit Differences(int shapes)
       : coat(axes::kStretchedCoatIndex * axes::kStretchedCoatDirection, Values(shapes)) {
-    for (auto& values : under) values = coat;
-  }
-};
-
-/// What the tables of round facets say, of width `alpha`, as OfIndex does.
-struct OfRound {
-  double coat, under[kUnder];
-
-  OfRound(const CoatedTables& round, double alpha, double eta, double place) {
-    const auto width = CoatedLobe<double>::facet_width(alpha);
-    coat = interpolate_coat(round.coat, width, eta, place);
-    for (int b = 0; b < kUnder; ++b) {
-      const auto weights = lagrange<double>(axes::kHeld, axes::kStretchedHeld[b]);
-      under[b] =
-          interpolate_coat(round.under, weights.data(), int(weights.size()), width, eta, place);
-    }
+    for (auto& values : under)
+      values.resize(axes::kStretchedUnderIndex * axes::kStretchedCoatDirection, Values(shapes));
   }
 };
 
@@ -225,24 +209,39 @@ Differences differences(const ShapeFit& shapes, double root, const CoatedTables&
     const double aspect = shapes.facets(first).wide, wide = root * aspect, narrow = root / aspect;
     while (end < shapes.count() && shapes.facets(end).wide == aspect) ++end;
     const Lobe<Distribution<double>> lobe(wide, narrow);
-    for (int n = 0; n < kStretchedCoatIndex; ++n) {
-      const double eta = index_at(double(n) / (kStretchedCoatIndex - 1));
-      const OfIndex stretched(lobe, eta, Broadness<double>::facets(root));
+    // `stretched` is of the index `eta`, `like(width, place)` what tables of round facets hold.
+    const auto fill = [&](std::vector<Values>& to, int n, const Values& stretched,
+                          const auto& like) {
       for (int d = 0; d < kStretchedCoatDirection; ++d) {
-        const double place = double(d) / (kStretchedCoatDirection - 1);
-        const double z = cosine_at(std::max(place, 1e-3)), s = std::sqrt((1 - z) * (1 + z));
+        const double z = cosine_at(std::max(double(d) / (kStretchedCoatDirection - 1), 1e-3)),
+                     s = std::sqrt((1 - z) * (1 + z));
         for (int i = first; i < end; ++i) {
           const auto seen = shapes.facets(i);
           const Vec3d w{s * seen.x, s * seen.y, z};
-          const OfRound like(round, FacetsAlong<double>(wide, narrow, w).like, eta,
-                             axes::coat_direction(z));
-          const int at = n * kStretchedCoatDirection + d;
-          all.coat[at][i] = lobe.directions().value(stretched.coat, w) - like.coat;
-          for (int b = 0; b < kUnder; ++b)
-            all.under[b][at][i] = lobe.directions().value(stretched.under[b], w) - like.under[b];
+          const auto width =
+              CoatedLobe<double>::facet_width(FacetsAlong<double>(wide, narrow, w).like);
+          to[n * kStretchedCoatDirection + d][i] =
+              lobe.directions().value(stretched, w) - like(width, coat_direction(z));
         }
       }
+    };
+    for (int n = 0; n < kStretchedCoatIndex; ++n) {
+      const double eta = index_at(double(n) / (kStretchedCoatIndex - 1));
+      fill(all.coat, n, as_coat(lobe, eta, Broadness<double>::facets(root)),
+           [&](const auto& width, double place) {
+             return interpolate_coat(round.coat, width, eta, place);
+           });
     }
+    for (int n = 0; n < kStretchedUnderIndex; ++n)
+      for (int b = 0; b < kUnder; ++b) {
+        const double eta = index_at(double(n) / (kStretchedUnderIndex - 1));
+        const auto weights = lagrange<double>(kHeld, kStretchedHeld[b]);
+        fill(all.under[b], n, below_coat(lobe, eta, kStretchedHeld[b]),
+             [&](const auto& width, double place) {
+               return interpolate_coat(round.under, weights.data(), int(weights.size()), width, eta,
+                                       place);
+             });
+      }
   }
   return all;
 }
@@ -254,10 +253,13 @@ StretchedTables stretched_coats(const CoatedTables& round) {
   using namespace axes;
   const ShapeFit shapes(kStretchedCoatDegree);
   const int steps = kStretchedCoatAlpha - 1, terms = shapes.terms();
-  const std::vector<int> nodes{kStretchedCoatAlpha, kStretchedCoatIndex, kStretchedCoatDirection,
-                               terms};
   // As it is of mirrors: nothing.
-  std::vector<Grid> fitted(1 + kUnder, Grid(nodes, [](const double*) { return 0.0; }));
+  const auto nothing = [&](int indices) {
+    return Grid({kStretchedCoatAlpha, indices, kStretchedCoatDirection, terms},
+                [](const double*) { return 0.0; });
+  };
+  std::vector<Grid> fitted(1, nothing(kStretchedCoatIndex));
+  fitted.resize(1 + kUnder, nothing(kStretchedUnderIndex));
   parallel(steps, [&](int k) {
     const double place = (k + 1.0) / steps;
     const auto all = differences<Distribution>(shapes, place * place * place, round);
