@@ -7,7 +7,7 @@
 /// what the glass reflects outside passes twice, and inside never. So f of the bare glass gets
 ///
 ///   across    T                 of the direction outside
-///   outside   T T' / T(1)       T(1) along the normal, where T is most, or nearly
+///   outside   T T' / T(1)       T(1) along the normal, or T or T' where that is more
 ///   inside    1
 ///
 /// all of it symmetric; T is the product of all coats that count together. What the coats lack of
@@ -139,7 +139,8 @@ template <class R>
 inline R glass_factor(bool o_outside, bool i_outside, R o, R i, R normal) {
   if (o_outside != i_outside) return o_outside ? o : i;
   if (!o_outside) return 1;
-  return normal > 0 ? o * i / normal : R(0);
+  const R most = std::max({o, i, normal});  // above 3.7, T has its most away from the normal
+  return most > 0 ? o * i / most : R(0);
 }
 
 /// The integral of GlassTables for each part.

@@ -295,6 +295,20 @@ TEST_CASE("a mixture of glass and matte under a polished coat is lossless") {
     }
 }
 
+TEST_CASE(
+    "smooth glass under a coat of a very high index is lossless, and sends nothing negative") {
+  // T is far above T(1) there, next to Brewster's angle.
+  for (const double ior : {3.9, 5.0, 30.0, 1000.0})
+    for (double degrees : {0.0, 60.0, 80.0, 88.0, 89.9, 100.0, 150.0}) {
+      const Material m = fresnel_mix(dielectric(1.5), mirror(1), ior);
+      const Vec3d wo = direction(degrees, 0.4);
+      CHECK(deltas(m, wo) == doctest::Approx(1).epsilon(1e-5));
+      CHECK(deltas(m, wo, true, false) >= 0);
+      const Material rough = fresnel_mix(dielectric(1.5), microfacet(1, 0.5), ior);
+      CHECK(deltas(rough, wo, true, false) >= 0);
+    }
+}
+
 TEST_CASE("light that changes sides passes the layer of a coat once") {
   const double depth = 0.7, ior = 1.4, glass = 1.7;
   const Material clear = coat(mirror(1), dielectric(glass), 0, 1, ior);
