@@ -42,7 +42,7 @@ inline constexpr int kCoatedMatte = 5, kSpread = 32;
 inline constexpr double kHeld[] = {0, 0.2, 0.5, 0.8, 1}, kStretchedHeld[] = {0, 0.3, 0.7, 1};
 /// Of stretched facets; the axis of the width is that of an interface. As a coat, E changes fast
 /// where the index is next to 1.
-inline constexpr int kStretchedCoatAlpha = 22, kStretchedCoatIndex = 14, kStretchedUnderIndex = 11,
+inline constexpr int kStretchedCoatAlpha = 22, kStretchedCoatIndex = 14, kStretchedUnderIndex = 14,
                      kStretchedCoatDirection = 28, kStretchedCoatDegree = 12;
 inline constexpr double kLeastCoatIndex = 0.1, kMostCoatIndex = 0.8801117;  ///< of 1.0002 and 4
 

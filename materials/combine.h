@@ -26,8 +26,8 @@
 /// so that a lossless base under a lossless coat is 1 in every direction: round facets, `glossy`
 /// and both mattes under any such coat within 1e-4 for indices from 1.005 to 4 and roughness from
 /// 0.05, beyond these 4e-4, and towards index 1 or 8 1e-3; stretched facets in it or under it 1e-4
-/// up to anisotropy 0.5, 4e-4 at 0.9, above index 4 4e-3, and in a coat of index 1.001 5e-3. All
-/// other lobes get
+/// up to anisotropy 0.9 for indices to 3, 3e-4 to 4, 4e-3 above, and in a coat of index 1.001 5e-3.
+/// All other lobes get
 ///   base: min(T, T')
 /// which never gains, as it is below T. All of these are symmetric. A specular coat over a Lambert
 /// base is 1 exactly; but near grazing a broad coat of which no more is known loses much: min(F,
@@ -45,11 +45,11 @@
 /// (materials/glass_coat.h), and seen from inside nothing else:
 ///   base: T(outside), T T' / T(1), or 1
 /// so that lossless glass is 1 from both sides: smooth 1e-5 (`dielectric`, `beckmann_dielectric`,
-/// `film_dielectric`, `phong_glass`, `refraction`), facets of roughness from 0.1 1e-3, below it
-/// 3e-3, for indices of both between 1 and 4; stretched ones 1e-3 up to anisotropy 0.5, 2.5e-3 at
-/// 0.9; below a polished coat under another of index below 1.03, 3e-3. `phong_glass` that is rough,
-/// and other indices, get min(T, T') as if both directions were outside, and lose up to a tenth
-/// about the critical angle.
+/// `film_dielectric`, `phong_glass`, `refraction`), round facets of roughness from 0.1 1e-3, from
+/// 0.02 2e-3, for indices of both between 1 and 4; stretched ones 1e-3 up to anisotropy 0.7, 2.5e-3
+/// at 0.9; below a polished coat under another of index below 1.03, 3e-3. `phong_glass` that is
+/// rough, and other indices, get min(T, T') as if both directions were outside, and lose up to a
+/// tenth about the critical angle.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`:

@@ -19,10 +19,10 @@
 /// E by their own lobes, S as a mirror would, or the more of it S S' / (pi mean S) the broader both
 /// coat and glass are: all of it is reciprocal, and lossless glass below lossless coats loses
 /// nothing. Where glass is smooth that is exact; of facets tables hold the integrals for polished
-/// coats, and for four functions that the rest of E is a sum of (materials/tables/glass.cpp):
-/// within 1e-3 for roughness from 0.1, below that within 3e-3. Beyond indices of 1 and 4 all is as
-/// below other coats. What stretched facets have above round ones as wide along the direction is in
-/// further tables, as polynomials over the shape that they have along it.
+/// coats, and for four functions that the rest of E is a sum of (materials/tables/glass.cpp); how
+/// exactly, says materials/combine.h. Beyond indices of 1 and 4 all is as below other coats. What
+/// stretched facets have above round ones as wide along the direction is in further tables, as
+/// polynomials over the shape that they have along it.
 
 #include <algorithm>
 #include <cmath>
@@ -38,13 +38,13 @@ namespace mms::materials {
 
 namespace axes {
 /// Of glass below coats: [0] seen from outside, [1] from inside.
-inline constexpr int kGlassAlpha[] = {18, 20}, kGlassIndex[] = {12, 15},
-                     kGlassDirection[] = {44, 50}, kGlassCoat[] = {20, 14};
+inline constexpr int kGlassAlpha = 28, kGlassIndex = 16, kGlassDirection[] = {44, 80},
+                     kGlassCoat[] = {20, 14};
 /// The same of stretched facets, and the degree of polynomials over their shapes.
 struct BentGlassGrid {
   int width, index, direction, coat, degree;
 };
-inline constexpr BentGlassGrid kBentGlass[] = {{9, 9, 15, 6, 10}, {11, 11, 22, 7, 10}};
+inline constexpr BentGlassGrid kBentGlass[] = {{9, 9, 15, 6, 10}, {15, 18, 22, 6, 10}};
 /// The ends of the axes of both indices, 1.0002 and 4, and the least width, nearly a mirror's.
 inline constexpr double kLeastGlassIndex = 0.1, kMostGlassIndex = 0.8801117;
 inline constexpr double kLeastGlassAlpha = 0.0464;
@@ -156,12 +156,11 @@ inline SentParts<R> round_parts(const GlassTables& tables, const StretchedInterf
                                 bool inside, R glass, const CoatOnGlass<R>& coat) {
   using namespace axes;
   const R alpha = f.like(), s = std::sqrt(f.x * f.x + f.y * f.y);
-  const auto a = Stencil<R>::at(glass_alpha(alpha), kGlassAlpha[inside]);
-  const auto n = Stencil<R>::at(glass_index(glass), kGlassIndex[inside]);
+  const auto a = Stencil<R>::at(glass_alpha(alpha), kGlassAlpha);
+  const auto n = Stencil<R>::at(glass_index(glass), kGlassIndex);
   const auto d =
       Stencil<R>::at(glass_direction(inside, f.z, s, alpha, glass), kGlassDirection[inside]);
-  const int directions = coefficients(kGlassDirection[inside]),
-            indices = coefficients(kGlassIndex[inside]);
+  const int directions = coefficients(kGlassDirection[inside]), indices = coefficients(kGlassIndex);
   SentParts<R> parts;
   if (coat.steep != 0) {
     const auto c = Stencil<R>::at(glass_index(coat.eta), kGlassCoat[inside]);

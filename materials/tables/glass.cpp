@@ -232,8 +232,8 @@ Bent bent_side(const GlassTables& round) {
 template <bool Inside, template <class> class Distribution>
 void write_side(std::FILE* to, const std::string& name) {
   using namespace axes;
-  constexpr int widths = kGlassAlpha[Inside], indices = kGlassIndex[Inside],
-                directions = kGlassDirection[Inside], coats = kGlassCoat[Inside];
+  constexpr int widths = kGlassAlpha, indices = kGlassIndex, directions = kGlassDirection[Inside],
+                coats = kGlassCoat[Inside];
   const std::string side = Inside ? "Inside" : "Outside";
   const auto zero = [](const double*) { return 0.0; };
   Grid steep({widths, indices, directions, coats}, zero);
