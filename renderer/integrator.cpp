@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "materials/weight.h"
 #include "renderer/batches.h"
 #include "renderer/scatterer.h"
 
@@ -246,6 +247,7 @@ void Integrator::shade(std::span<const Vertex> group) {
     scripts_.rest();  // the coefficients were asked for on the way
   else
     scripts_.run(*d, EntryKind::Shade, lanes_);
+  Weighed* weighed = medium || c.constant_material ? nullptr : &weighed_[d];
   for (int i = 0; i < n; ++i) {
     const Vertex& v = group[i];
     float* params = &params_[i * stride];
@@ -271,6 +273,7 @@ void Integrator::shade(std::span<const Vertex> group) {
                   choice_});
       continue;
     }
+    if (weighed) weighed->add(materials::stated_weight(c.material, params));
     if (world_.nested) immerse(c.material, v.outside, params);
     if (c.emits)
       add_emission(v, scripted_emission(world_.compiled, scripts_, *d, EntryKind::Shade, i, s,

@@ -6,6 +6,8 @@
 /// on one descriptor are shaded in batches. New paths begin as others end, and what takes long on
 /// its way does not hold up the rest. One Integrator is one thread's.
 
+#include <algorithm>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -32,6 +34,23 @@ class Integrator {
   /// Looks at what scripts say from now on: `Scripts::not_finite`.
   void watch_scripts() { scripts_.watch(); }
   const FlightCounters& counters() const { return flights_.counters(); }
+
+  /// How much a descriptor's material weighs where it varies.
+  struct Weighed {
+    std::uint64_t points = 0, above_one = 0;
+    float most = 0;
+
+    void add(float weight) {
+      ++points;
+      above_one += weight > 1 + 1e-4f;  // rounding aside
+      most = std::max(most, weight);
+    }
+    void add(const Weighed& b) {
+      points += b.points, above_one += b.above_one;
+      most = std::max(most, b.most);
+    }
+  };
+  const std::map<const vm::Descriptor*, Weighed>& weighed() const { return weighed_; }
 
  private:
   /// Of a path that goes on by way of a ball (renderer/caustics.h): where it left the vertex
@@ -154,6 +173,7 @@ class Integrator {
   std::vector<ScriptPoint> light_points_;
   std::vector<const ScriptPoint*> lanes_;
   std::vector<float> params_, scratch_;
+  std::map<const vm::Descriptor*, Weighed> weighed_;
   materials::Bsdf<float>::Choice choice_;  ///< of the vertex that is being shaded
   std::vector<BallOptics> optics_;         ///< of each sample's wavelengths, ball after ball
   std::vector<float> ball_params_;         ///< what the balls scatter by, likewise

@@ -293,6 +293,7 @@ void Job::account(const Integrator& integrator) {
   report_.rays += f.rays;
   report_.shadow_rays += f.shadow_rays;
   for (const auto& [where, lanes] : integrator.scripts().faults()) faults_[where] += lanes;
+  for (const auto& [descriptor, found] : integrator.weighed()) weighed_[descriptor].add(found);
 }
 
 Rendered Job::finish() {
@@ -311,11 +312,16 @@ Rendered Job::finish() {
   report_.stopped = options_.stop && options_.stop->load() && paths_done_ < paths_asked_ && !good_;
   const ErrorEstimate error(*film_);
   report_.rmse = error.rmse();
+  const vm::Program& program = world_.compiled.program();
   for (const auto& [where, lanes] : faults_)
-    report_.faults.push_back({place(world_.compiled.program(), where.source, where.line),
-                              cause_text(where.cause), lanes});
+    report_.faults.push_back(
+        {place(program, where.source, where.line), cause_text(where.cause), lanes});
   std::stable_sort(report_.faults.begin(), report_.faults.end(),
                    [](const FaultCount& a, const FaultCount& b) { return a.lanes > b.lanes; });
+  for (const vm::Descriptor& d : program.descriptors)
+    if (const auto w = weighed_.find(&d); w != weighed_.end() && w->second.above_one > 0)
+      report_.gains.push_back({place(program, d.line.source, d.line.line), d.name,
+                               w->second.above_one, w->second.points, w->second.most});
   return {film_->develop(error), std::move(report_), film_};
 }
 

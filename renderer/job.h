@@ -81,6 +81,7 @@ class Job {
   /// The first samples dropped in scan order, as (y, x, number), at most kExplained.
   std::set<std::tuple<int, int, int>> first_dropped_;
   std::map<Scripts::FaultPlace, std::uint64_t> faults_;
+  std::map<const vm::Descriptor*, Integrator::Weighed> weighed_;
 };
 
 }  // namespace mms::renderer

@@ -115,6 +115,15 @@ struct FaultCount {
   std::uint64_t lanes = 0;
 };
 
+/// Points where the colours and factors of a material that varies add up to more than 1
+/// (materials/weight.h).
+struct GainCount {
+  std::string where;  ///< file:line
+  std::string descriptor;
+  std::uint64_t points = 0, of = 0;
+  float most = 0;  ///< sum
+};
+
 /// What a render did. Counters are totals over all threads.
 struct Report {
   int samples = 0;          ///< samples a pixel actually done (the smallest over the image)
@@ -144,6 +153,7 @@ struct Report {
   std::vector<NotFinite> not_finite;  ///< one for each descriptor, in the program's order
   std::vector<FaultCount> faults;     ///< by number, largest first
   std::uint64_t fault_lanes = 0;
+  std::vector<GainCount> gains;  ///< one for each descriptor, in the program's order
   bool stopped = false;          ///< `stop` ended it early
   bool error_reached = false;    ///< `error` ended it
   bool too_many_faults = false;  ///< more than `kMaxFaultLanes` ended it early

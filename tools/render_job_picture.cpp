@@ -92,6 +92,13 @@ Json to_json(const std::string& script, const std::string& path, const renderer:
   Json faults = Json::array();
   for (const renderer::FaultCount& f : r.faults)
     faults.push_back({{"where", f.where}, {"cause", f.cause}, {"lanes", f.lanes}});
+  Json gains = Json::array();
+  for (const renderer::GainCount& g : r.gains)
+    gains.push_back({{"where", g.where},
+                     {"descriptor", g.descriptor},
+                     {"points", g.points},
+                     {"of", g.of},
+                     {"most", g.most}});
   Json json{{"script", script},
             {"picture", path},
             {"samples", r.samples},
@@ -117,6 +124,7 @@ Json to_json(const std::string& script, const std::string& path, const renderer:
             {"cut_samples", r.cut},
             {"fault_lanes", r.fault_lanes},
             {"faults", faults},
+            {"gains", gains},
             {"stopped", r.stopped}};
   if (!tells_error(std::uint32_t(r.samples))) json.erase("error");
   return json;
@@ -294,6 +302,12 @@ void print_report(const RenderRequest& request, const RenderScript& linked,
                "warning: {}: volume denser than its bound: {} of {}; it was taken to be as "
                "dense as the bound there\n",
                script, r.denser_samples, counted(r.medium_samples, "sample"));
+  for (const renderer::GainCount& g : r.gains)
+    fmt::print(stderr,
+               "warning: {}: the weights of `{}`'s material add up to more than 1 at {} of {}, to "
+               "{:.4g} at most: more light leaves it there than comes\n  = help: lower one, or use "
+               "`mix(a, b, t)`, which shares\n",
+               g.where, g.descriptor, g.points, counted(g.of, "point"), g.most);
   for (const renderer::FaultCount& f : r.faults)
     fmt::print(stderr, "warning: {}: {} at {}: the output's default was taken there\n", f.where,
                f.cause, counted(f.lanes, "point"));

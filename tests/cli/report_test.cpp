@@ -110,4 +110,17 @@ TEST_CASE("a picture names its sampler, its estimator and the numbers of its sam
     CHECK_MESSAGE(contains(png, name), name);
 }
 
+TEST_CASE("a material that varies and adds up to more than 1 is told, and where") {
+  const Folder folder;
+  folder.write("s.mms", "surface \"s\"\n    bsdf = matte(0.8) + mirror($uv.x);\nend\n");
+  const Outcome run = folder.mms("render s.mms --size 16x16 --samples 4 -o a.png");
+  CHECK(run.exit == 0);
+  CHECK(contains(run.err, "s.mms:1: the weights of `s`'s material add up to more than 1 at "));
+  CHECK(contains(run.err, "= help: "));
+  const json gain = report(folder, "--size 16x16 --samples 4 -o a.png").at("gains").at(0);
+  CHECK(gain.at("descriptor") == "s");
+  CHECK(gain.at("most") > 1);
+  CHECK(gain.at("points") < gain.at("of"));
+}
+
 #endif

@@ -2,6 +2,7 @@
 // The table of lobes and what a Layout makes of it.
 #include <doctest/doctest.h>
 
+#include "materials/weight.h"
 #include "tests/unit/materials/make.h"
 
 using namespace mms;
@@ -61,4 +62,21 @@ TEST_CASE("layout offsets and flags") {
   const Layout polished = mirror(1).layout();
   CHECK(!polished.has_smooth());
   CHECK(Layout().empty());
+}
+
+TEST_CASE("stated weights: sums add, mixtures lie between their parts, what has no colour is 0") {
+  const auto weight = [](const Material& m) {
+    return materials::stated_weight(m.layout(), m.params<float>().data());
+  };
+  Spectrum<double> green(0.25);
+  green[1] = 0.5;
+  CHECK(weight(matte(0.5)) == 0.5f);
+  CHECK(weight(matte(green)) == 0.5f);
+  CHECK(weight(add(matte(0.75), mirror(green))) == 1.25f);
+  CHECK(weight(scale(add(matte(1), mirror(1)), 0.25)) == 0.5f);
+  CHECK(weight(scale(matte(1), 3)) == 1);  // factors are held to [0, 1]
+  CHECK(weight(mix(matte(1.5), matte(0.5), 0.75)) == 0.75f);
+  CHECK(weight(fresnel_mix(matte(0.5), mirror(0.25))) == 0.25f);
+  CHECK(weight(dielectric(1.5)) == 0);
+  CHECK(materials::stated_weight(Layout(), nullptr) == 0);
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/warp.h"
 #include "renderer/enclosure.h"
 #include "scenes.h"
 #include "tests/sanitized.h"
@@ -363,4 +364,23 @@ TEST_CASE("bump tilts the light: a wall with height a x, lit from one side by a 
   // spans 2 degrees, and the patch 0.03 m: relative 1e-3.
   CHECK(mean_luminance(b->film).value / mean_luminance(f->film).value ==
         doctest::Approx(tilted / 0.8).epsilon(2e-3));
+}
+
+TEST_CASE("where the weights of a material that varies add up to more than 1 is counted") {
+  const auto gains = [](const std::string& bsdf) {
+    const vm::Program p = compile("surface a\n bsdf = " + bsdf + ";\nend\n");
+    Result<Rendered> r = render(p, scene_of(p, kWall), options(32, 16));
+    REQUIRE(bool(r));
+    return r->report.gains;
+  };
+  CHECK(gains("mix(matte(0.9), mirror(0.9), $uv.x)").empty());
+  // 0.8 + u: of the wall this much lies to both sides of its middle, u = 0.5, in view.
+  const double half = 1.5 * std::tan(kPi<double> / 12), share = (0.3 + half) / (2 * half);
+  const auto found = gains("matte(0.8) + mirror($uv.x)");
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].descriptor == "a");
+  CHECK(found[0].where.ends_with(":1"));
+  const auto of = double(found[0].of);
+  CHECK(std::abs(double(found[0].points) / of - share) < 4 * std::sqrt(share * (1 - share) / of));
+  CHECK(found[0].most == doctest::Approx(1.3 + half).epsilon(0.01));
 }
