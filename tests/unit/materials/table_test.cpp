@@ -76,7 +76,7 @@ TEST_CASE("stated weights: sums add, mixtures lie between their parts, what has 
   CHECK(weight(scale(add(matte(1), mirror(1)), 0.25)) == 0.5f);
   CHECK(weight(scale(matte(1), 3)) == 1);  // factors are held to [0, 1]
   CHECK(weight(mix(matte(1.5), matte(0.5), 0.75)) == 0.75f);
-  CHECK(weight(fresnel_mix(matte(0.5), mirror(0.25))) == 0.25f);
+  CHECK(weight(fresnel_mix(matte(0.5), mirror(0.25), 1.5)) == 0.25f);
   CHECK(weight(dielectric(1.5)) == 0);
   CHECK(materials::stated_weight(Layout(), nullptr) == 0);
 }
