@@ -187,7 +187,7 @@ In the tables `albedo` is what comes back of light along a direction that many d
 most of eight wavelengths; `lost` is what is missing to 1 (negative: gained), `+-` the standard error were the samples independent, and `efficiency` what one sample is worth against one
 whose weight never varies: 1 / (1 + variance / mean^2).
 
-Rims are dark where a model loses energy, and nowhere else: `phong`, `spot`, `ward`, `ashikhmin_shirley`; `sheen` is dark in its middle, where light
+Rims are dark where a model loses energy, and nowhere else: `phong`, `max_phong`, `spot`, `phong_glass`, `ward`, `ashikhmin_shirley`; `sheen` is dark in its middle, where light
 passes it. `glossy` and the facets keep it. Bright specks in and under rough glass are no model's: paths from the camera find the small lamp through two rough faces by chance.
 )";
 
