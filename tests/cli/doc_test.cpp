@@ -175,7 +175,7 @@ TEST_CASE("the scripts of the gallery are laid out and link, and their pictures 
   const fs::path root = mms::source_dir();
   const Folder folder;
   for (const char* name : {"library", "noise", "fractals", "screen", "stained_glass", "copper",
-                           "dispersion", "clusters", "illuminants", "frosted", "drink"}) {
+                           "dispersion", "clusters", "illuminants", "frosted", "drink", "glossy"}) {
     const std::string script = (root / "examples/figures" / name).string() + ".mms";
     INFO(script);
     CHECK(folder.mms("check " + script).exit == 0);

@@ -166,3 +166,37 @@ TEST_CASE("every documented function of the library's modules has an example") {
     }
   }
 }
+
+#if MMS_RENDERER
+
+TEST_CASE("the commands that render the figures run, at a small size") {
+  const fs::path root = mms::source_dir();
+  int commands = 0;
+  for (const auto& entry : fs::directory_iterator(root / "examples/figures")) {
+    std::ifstream script(entry.path());
+    for (std::string line; std::getline(script, line);) {
+      const std::size_t at = line.find("mms render ");
+      if (!line.starts_with("//") || at == std::string::npos) continue;
+      std::istringstream words(line.substr(at + 4));
+      std::string command;
+      for (std::string word; words >> word;) {
+        if (word == "--size" || word == "--samples") {
+          words >> word;
+          continue;
+        }
+        if (word == "-o") break;
+        if (word.ends_with(".mms") || word.ends_with(".json"))
+          word = (entry.path().parent_path() / fs::path(word).filename()).string();
+        command += word + " ";
+      }
+      const Folder folder;
+      const Outcome run = folder.mms(command + "--size 16x12 --samples 1 -o a.png");
+      CHECK_MESSAGE(run.exit == 0, command, run.err);
+      CHECK_MESSAGE(folder.has("a.png"), command);
+      ++commands;
+    }
+  }
+  CHECK(commands >= 15);
+}
+
+#endif
