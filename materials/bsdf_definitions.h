@@ -304,7 +304,8 @@ Sent<R> Bsdf<R>::sent_back(int base, Vec3<R> w, const Choice& choice) const {
 template <class R>
 Spectrum<R> Bsdf<R>::mean_spread(int base, bool inside, const Choice& choice) const {
   if (choice.glass.of[base].o.spread.v == Spectrum<R>().v) return {};
-  // Over x = z^2 and, in four parts, the azimuth; points crowd about the critical angle.
+  // Over x = z^2 and, in four parts, the azimuth; points crowd about a critical angle, the same for
+  // each wavelength, whichever is the hero.
   R at = 0;
   bool stretched = false;
   for_each_below(*layout_, params_, choice.coats, base, [&](int i, const Spectrum<R>&) {
@@ -314,8 +315,10 @@ Spectrum<R> Bsdf<R>::mean_spread(int base, bool inside, const Choice& choice) co
                       model.facets;
                       model.ior;
                     }) {
-        const R eta = relative_eta(model.ior[0], Vec3<R>{0, 0, R(inside ? -1 : 1)});
-        at = std::max(at, (1 - eta) * (1 + eta));
+        for (int j = 0; j < kWavelengths; ++j) {
+          const R eta = relative_eta(model.ior[j], Vec3<R>{0, 0, R(inside ? -1 : 1)});
+          at = std::max(at, (1 - eta) * (1 + eta));
+        }
         stretched |= model.facets.ax != model.facets.ay;
       }
       return 0;

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -122,16 +123,18 @@ inline void split(const Rectangle& r, std::vector<PolarPoint>::iterator a,
   split(high, mid, b, cells / 2, !by_t, out);
 }
 
-/// Integral of `f(t, phi)` over a cell of which `count` samples are drawn. Cells of the tail hold a
-/// peak at one edge, so both coordinates run through x = s^4 (35 - 84 s + 70 s^2 - 20 s^3), which
-/// crowds the edges. An adaptive rule may stop too early where it sees a peak at no point, or a
-/// jump at too few, and so it is begun with the cell cut into 2 by 2, 3 by 3, 5 by 5, ...
-/// (Fibonacci: points of one are not those of another) until two in turn agree within a tenth of
-/// the standard deviation of the cell's own count. At the worst each cell then adds 0.01 to a
-/// statistic that expects 1 of it. `tolerance` is the adaptive rule's. The few samples of a
-/// sanitized run are content with 2 by 2.
-template <class F>
-double integrate_cell(const Rectangle& cell, double tolerance, int count, F&& f) {
+struct Integral {
+  double value, error;  ///< how far the last two ways to cut it disagree
+};
+
+/// Integral of `f(t, phi)` over a cell. Cells of the tail hold a peak at one edge, so both
+/// coordinates run through x = s^4 (35 - 84 s + 70 s^2 - 20 s^3), which crowds the edges. An
+/// adaptive rule may stop too early where it sees a peak at no point, or a jump at too few, and so
+/// it is begun with the cell cut into 2 by 2, 3 by 3, 5 by 5, ... (Fibonacci: points of one are not
+/// those of another) until two in turn agree within `enough(value)`. `tolerance` is the adaptive
+/// rule's.
+template <class Enough, class F>
+Integral integrate_peaked(const Rectangle& cell, double tolerance, const Enough& enough, F&& f) {
   const auto crowd = [](double s) { return s * s * s * s * (35 + s * (-84 + s * (70 - s * 20))); };
   const auto slope = [](double s) { return 140 * std::pow(s * (1 - s), 3); };
   const double w = cell.x1 - cell.x0, h = cell.y1 - cell.y0;
@@ -149,12 +152,24 @@ double integrate_cell(const Rectangle& cell, double tolerance, int count, F&& f)
   };
   constexpr int kMostCuts = 34;
   int before = 2, n = 3;
-  double last = cut(before), now = kSanitized ? last : cut(n);
-  while (std::abs(now - last) > 0.1 * std::sqrt(now / count) && n < kMostCuts) {
+  Integral all{cut(before), std::numeric_limits<double>::infinity()};
+  while (all.error > enough(all.value) && n <= kMostCuts) {
+    const double now = cut(n);
+    all = {now, std::abs(now - all.value)};
     before = std::exchange(n, n + before);
-    last = std::exchange(now, cut(n));
   }
-  return now;
+  return all;
+}
+
+/// The same of a density, over a cell of which `count` samples are drawn: within a tenth of the
+/// standard deviation of the cell's own count. At the worst each cell then adds 0.01 to a statistic
+/// that expects 1 of it. The few samples of a sanitized run are content with 2 by 2.
+template <class F>
+double integrate_cell(const Rectangle& cell, double tolerance, int count, F&& f) {
+  const auto enough = [&](double p) {
+    return kSanitized ? std::numeric_limits<double>::infinity() : 0.1 * std::sqrt(p / count);
+  };
+  return integrate_peaked(cell, tolerance, enough, f).value;
 }
 
 }  // namespace detail
