@@ -84,12 +84,14 @@ struct RoughMetal {
   }
   SpecularTerms<R> terms(Vec3<R> wo) const { return mirror_terms(estimate(wo)); }
 
-  /// 2 int_0^1 F(c) c dc by the Gauss rule of three points for that weight: within 5e-4 of real
-  /// metals' (measured), and 1 for the lossless.
+  /// 2 int_0^1 F(c) c dc by the Gauss rule of four points for that weight: within 5e-4 of real
+  /// metals', exact for coloured ones that are nowhere cut off at 0, and 1 for the lossless; under
+  /// films of 400 nm within 5e-3, of 800 nm within 4e-2.
   Spectrum<R> mean_reflectance() const {
-    return reflectance(R(0.2123405382)) * R(0.1396539599) +
-           reflectance(R(0.5905331356)) * R(0.4584822127) +
-           reflectance(R(0.9114120405)) * R(0.4018638274);
+    return reflectance(R(0.139759864344)) * R(0.062361941900) +
+           reflectance(R(0.416409567631)) * R(0.259695095216) +
+           reflectance(R(0.723156986362)) * R(0.406929136021) +
+           reflectance(R(0.942895803885)) * R(0.271013826863);
   }
 
   FacetsSeen<R> seen(Vec3<R> wo) const {
