@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -27,13 +28,19 @@
 
 namespace mms::stats {
 
+/// `usual`, or what MMS_STATS_SAMPLES says: `./run nightly` draws 10^6.
+inline int sample_count(int usual) {
+  const char* samples = std::getenv("MMS_STATS_SAMPLES");
+  return samples ? std::atoi(samples) : usual;
+}
+
 struct ChiSquareTest {
   /// A direction, or nothing.
   std::function<std::optional<Vec3d>(Random&)> sample;
   /// Per steradian.
   std::function<double(Vec3d)> pdf;
   Vec3d axis{0, 0, 1};  ///< the pole: the density may jump at its equator
-  int count = kSanitized ? 5'000 : 100'000;
+  int count = sample_count(kSanitized ? 5'000 : 100'000);
   int pilot = 8192;
   int cells = 64;  ///< in each half; a power of two
   std::uint64_t seed = 1;

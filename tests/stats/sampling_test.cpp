@@ -22,12 +22,6 @@ using materials::Mode;
 
 namespace {
 
-/// `usual`, or what MMS_STATS_SAMPLES says: `./run nightly` draws 10^6.
-int sample_count(int usual) {
-  const char* samples = std::getenv("MMS_STATS_SAMPLES");
-  return samples ? std::atoi(samples) : usual;
-}
-
 /// MMS_STATS_MODEL takes one model, by the start of its name.
 bool asked(const Case& c) {
   const char* only = std::getenv("MMS_STATS_MODEL");
@@ -67,7 +61,6 @@ void check_samples_follow(const std::vector<Case>& cases, std::span<const double
                [&](Vec3d wi) {
                  return exact.evaluate(wo_exact, wi, Mode::Radiance, choice_exact).pdf[0];
                },
-           .count = sample_count(stats::ChiSquareTest{}.count),
            .seed = ++seed});
       worst = std::min(worst, r.p_value);
       CHECK_MESSAGE(r.passed(level), c.name, " at ", degrees, ": ", r.report());
@@ -164,7 +157,7 @@ TEST_CASE("a sample reports what eval and pdf say, and its mean weight is the al
       Vec3d peak[2] = {direction(100, 1), direction(80, 1)};  // only to place cells
       double most[2] = {0, 0};
       int wrong = 0;
-      for (int i = 0, n = sample_count(kSanitized ? 5000 : 20000); i < n; ++i) {
+      for (int i = 0, n = stats::sample_count(kSanitized ? 5000 : 20000); i < n; ++i) {
         const double u = random.next(), u1 = random.next(), u2 = random.next();
         const auto s = bsdf.sample(wo, u, u1, u2, Mode::Importance, choice);
         const bool smooth = s && !s->specular;

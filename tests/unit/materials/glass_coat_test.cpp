@@ -21,21 +21,12 @@ using materials::Mode;
 
 namespace {
 
-/// The sum of the deltas that light along `wo` is sent to, or of those on one side.
-double deltas(const Material& m, Vec3d wo, bool reflected = true, bool transmitted = true) {
+/// The sum of the deltas that light along `wo` is sent to, or of those across alone.
+double deltas(const Material& m, Vec3d wo, bool reflected = true) {
   const materials::Layout layout = m.layout();
   const auto p = m.params<double>();
-  const Bsdf<double> bsdf(layout, p.data());
-  const auto choice = bsdf.choose(wo);
-  double sum = 0;
-  std::set<bool> seen;
-  constexpr int kDraws = 16384;
-  for (int k = 0; k < kDraws && seen.size() < 2; ++k) {
-    const auto s = bsdf.sample(wo, (k + 0.5) / kDraws, 0.5, 0.5, Mode::Importance, choice);
-    if (!s || !s->specular || !seen.insert(s->transmitted).second) continue;
-    if (s->transmitted ? transmitted : reflected) sum += s->f[0] * std::abs(s->wi.z);
-  }
-  return sum;
+  const auto [here, across] = test::deltas(Bsdf<double>(layout, p.data()), wo);
+  return (reflected ? here : 0) + across;
 }
 
 bool smooth_everywhere(const Material& m) {

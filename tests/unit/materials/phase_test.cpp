@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "materials/emission.h"
 #include "tests/stats/chi_square.h"
 #include "tests/unit/materials/cases.h"
@@ -33,6 +35,7 @@ TEST_CASE("phase functions: samples, total, mean cosine, symmetry") {
       {add(scale(isotropic(), 0.3), scale(henyey_greenstein(0.5), ramp(0.6, 0.1))), 0.9, 0.3 / 0.9},
   };
   const double level = stats::sidak(0.01, 3 * int(std::size(rows)));
+  double worst = 1;
   std::uint64_t seed = 0;
   for (const Row& row : rows) {
     const materials::Layout layout = row.material.layout();
@@ -53,6 +56,7 @@ TEST_CASE("phase functions: samples, total, mean cosine, symmetry") {
                              .pdf = [&](Vec3d wi) { return exact.pdf(wo, wi)[0]; },
                              .axis = wo,
                              .seed = ++seed});
+      worst = std::min(worst, r.p_value);
       CHECK_MESSAGE(r.passed(level), row.mean_cosine, ": ", r.report());
       CHECK(r.mass == doctest::Approx(1).epsilon(1e-3));
 
@@ -69,6 +73,7 @@ TEST_CASE("phase functions: samples, total, mean cosine, symmetry") {
       CHECK(stats::z_test(cosine, row.mean_cosine, 1e-9) > level);
     }
   }
+  MESSAGE("smallest p-value ", worst, ", level ", level);
 }
 
 TEST_CASE("Henyey-Greenstein stays finite where it peaks") {
@@ -121,6 +126,7 @@ TEST_CASE("emission shapes: samples follow them, sharp ones too") {
                       {"spot, narrow and all but sharp", tinted(Lobe::Spot, 1, {0.01, 0.0101})},
                       {"spots", mix(tinted(Lobe::Spot, 1, {0.1, 0.2}), matte(1), 0.5)}};
   const double level = stats::sidak(0.01, int(std::size(rows)));
+  double worst = 1;
   std::uint64_t seed = 40;
   for (const Row& row : rows) {
     const materials::Layout layout = row.material.layout();
@@ -141,6 +147,7 @@ TEST_CASE("emission shapes: samples follow them, sharp ones too") {
                                  return exact.pdf({0, 0, 1}, w, materials::Mode::Importance)[0];
                                },
                            .seed = ++seed});
+    worst = std::min(worst, r.p_value);
     CHECK_MESSAGE(r.passed(level), row.name, ": ", r.report());
     // What a sample carries is the shape.
     stats::Random random(seed);
@@ -153,4 +160,5 @@ TEST_CASE("emission shapes: samples follow them, sharp ones too") {
           doctest::Approx(materials::emission_shape(layout, p64.data(), s->wi)[0]).epsilon(1e-12));
     }
   }
+  MESSAGE("smallest p-value ", worst, ", level ", level);
 }
