@@ -142,7 +142,8 @@ TEST_CASE("a sample reports what eval and pdf say, and its mean weight is the al
   std::uint64_t seed = 1000;
   double least = 1;
   for (const Case& c : cases) {
-    if (!asked(c)) {
+    const auto index = &c - cases.data();
+    if (!asked(c) || (kSanitized && index % 3)) {
       seed += std::size(kDegrees);
       continue;
     }
