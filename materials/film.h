@@ -3,9 +3,9 @@
 
 /// \file
 /// A film thinner than the coherence of light, over metal (`film_conductor`) or glass
-/// (`film_dielectric`): Airy's sum of the waves that its two faces reflect, for both polarisations
-/// (Born and Wolf, 7.6). Exact in index, angle and wavelength; light between facets is taken as for
-/// a bare metal.
+/// (`film_dielectric`): the waves that its two faces reflect, summed for both polarisations (Born
+/// and Wolf, 1.6). Exact in index, angle and wavelength; light between facets is taken as for a
+/// bare metal.
 
 #include <complex>
 
@@ -25,25 +25,41 @@ struct Film {
     phases = 2 * kPi<R> * limited(turns, R(0), R(1e4));
   }
 
-  /// Reflectance at the cosine of incidence `c` in [0, 1] of the film between `near` and `far`.
-  R reflectance(R c, R near, std::complex<R> far) const {
+  /// Of light at the cosine of incidence `c` in [0, 1], between `near` and `far`: transmitted is
+  /// what is absorbed in, or goes on through, what lies beyond. Each directly, by the amplitudes of
+  /// the characteristic matrix, N / D with
+  ///   N, D = (y_1 -+ y_3) cos b - i (y_1 y_3 / y_2 -+ y_2) sin b,    1 - |N / D|^2 =
+  ///          4 y_1 Re y_3 / |D|^2,    b = phases g
+  /// of the admittances y = g (s) and g / n^2 (p), g = n cos. All but those of `far` are real: sine
+  /// and cosine are hyperbolic where the film reflects totally, and then both divided by the cosine.
+  FresnelSplit<R> split(R c, R near, std::complex<R> far) const {
     using C = std::complex<R>;
-    const R s = near * near * (1 - c) * (1 + c);
-    const C n[3] = {near, ior, far};
-    const C g[3] = {near * c, std::sqrt(C(ior * ior - s)), std::sqrt(far * far - s)};  // n cos
-    const C turn = std::exp(C(0, 2) * phases * g[1]);
-    const auto reflect = [&](int a, int b, bool parallel) {
-      const C p = parallel ? n[b] * n[b] * g[a] : g[a], q = parallel ? n[a] * n[a] * g[b] : g[b];
-      const C sum = p + q;
-      return std::norm(sum) > 0 ? (p - q) / sum : C(1);
+    const R g1 = near * c, film2 = normal_square(c, near, ior), g2 = std::sqrt(std::abs(film2));
+    const C g3 = std::sqrt(normal_square(c, near, far));
+    const bool wave = film2 > 0;
+    const R b = phases * g2, cosine = wave ? std::cos(b) : R(1);
+    const R sine = g2 > 0 ? (wave ? std::sin(b) : std::tanh(b)) / g2 : phases;  // over g
+    const R falls = wave ? R(1) : 1 / std::cosh(b);
+    FresnelSplit<R> sum{R(0), R(0)};
+    const auto add = [&](R y1, R square, C far_square) {  // y = g / square; those of far times it
+      const C even = y1 * far_square * cosine, odd = C(0, -1) * y1 * g3 * (sine * square);
+      const C even3 = g3 * cosine, odd3 = C(0, -1) * far_square * (film2 * sine / square);
+      const R d = std::norm((even + even3) + (odd + odd3));
+      const R through = 4 * y1 * (g3 * std::conj(far_square)).real() * falls * falls;
+      sum.reflected += d > 0 ? std::norm((even - even3) + (odd - odd3)) / d / 2 : R(0.5);
+      sum.transmitted += d > 0 ? through / d / 2 : R(0);
     };
-    R total = 0;
-    for (bool parallel : {false, true}) {
-      const C first = reflect(0, 1, parallel), second = reflect(1, 2, parallel) * turn;
-      const C below = R(1) + first * second;
-      total += std::norm(below) > 0 ? std::norm((first + second) / below) : R(1);
-    }
-    return limited(total / 2, R(0), R(1));
+    add(g1, R(1), C(1));
+    add(g1 / (near * near), ior * ior, far * far);
+    return {limited(sum.reflected, R(0), R(1)), limited(sum.transmitted, R(0), R(1))};
+  }
+
+ private:
+  /// (n cos)^2 in a medium of index `n`, as in refraction_g2 where the sine is near sin.
+  template <class T>
+  static T normal_square(R c, R near, T n) {
+    return c > R(0.7) ? n * n - near * near * (1 - c) * (1 + c)
+                      : (n - near) * (n + near) + near * near * (c * c);
   }
 };
 
@@ -61,7 +77,7 @@ struct FilmFresnel {
       const std::complex<R> metal(limited(p[j], R(0), R(1e3)),
                                   limited(p[kWavelengths + j], R(0), R(1e3)));
       const Film<R> film(p[2 * kWavelengths + j], thickness, wavelength[j]);
-      f[j] = film.reflectance(c, R(1), metal);
+      f[j] = film.split(c, R(1), metal).reflected;
     }
     return f;
   }
@@ -88,9 +104,11 @@ struct FilmDielectric {
       const R ior = wo.z > 0 ? t.eta[j] : 1 / t.eta[j];
       const Film<R> film(p[kWavelengths + j], thickness, wavelength[j]);
       const bool total = !(refraction_g2(c, t.eta[j]) > 0);
-      const R r = total ? R(1) : film.reflectance(c, wo.z > 0 ? R(1) : ior, wo.z > 0 ? ior : R(1));
-      t.reflect_weight[j] = t.reflect_probability[j] = r;
-      t.transmit_weight[j] = t.transmit_probability[j] = 1 - r;
+      const FresnelSplit<R> s = total ? FresnelSplit<R>{R(1), R(0)}
+                                      : film.split(c, wo.z > 0 ? R(1) : ior, wo.z > 0 ? ior : R(1));
+      const R sum = s.reflected + s.transmitted;
+      t.reflect_weight[j] = s.reflected, t.reflect_probability[j] = s.reflected / sum;
+      t.transmit_weight[j] = s.transmitted, t.transmit_probability[j] = s.transmitted / sum;
     }
     return t;
   }

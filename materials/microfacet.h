@@ -17,9 +17,14 @@ struct HalfVector {
   Vec3<R> h;
   R cosine = 0;  ///< between it and either direction
 
-  /// The cosine is half the length of the sum: where directions nearly cancel, the product of
-  /// either with `h` would be rounding alone.
+  /// Directions have length 1, so their sum is perpendicular to their difference: near the surface
+  /// that tells the tangential part of the sum, which is what rounding has left of both, by the
+  /// cosines, which are exact. The cosine is half the length of the sum: where directions nearly
+  /// cancel, the product of either with `h` would be rounding alone.
   HalfVector(Vec3<R> a, Vec3<R> b) : h(a + b) {
+    const Vec3<R> across = a - b;
+    const R square = dot(across, across);
+    if (square > 0) h = h - across * (dot(h, across) / square);
     const R l2 = dot(h, h);
     const R cut = 16 * std::numeric_limits<R>::epsilon();
     const R length = l2 > cut * cut ? std::sqrt(l2) : R(0);

@@ -4,26 +4,31 @@
 
 #include <complex>
 
+#include "materials/film.h"
 #include "tests/unit/materials/cases.h"
 
 using namespace mms;
 using namespace mms::test;
 using materials::Bsdf;
 using materials::Mode;
+using materials::refraction_g2;
 
 namespace {
 
-using C = std::complex<double>;
+using Ld = long double;
+using C = std::complex<Ld>;
 
-/// Reflectance by the characteristic matrix of the film (Born and Wolf, 1.6.2), light from vacuum.
-double matrix_oracle(double c, C film, C base, double thickness, double wavelength) {
-  const C s2 = 1 - c * c, cf = std::sqrt(1.0 - s2 / (film * film)),
-          cb = std::sqrt(1.0 - s2 / (base * base));
-  const C beta = 2 * kPi<double> * film * thickness * cf / wavelength;
-  double sum = 0;
-  for (bool parallel : {false, true}) {
-    const C a = parallel ? C(c) : C(1 / c), f = parallel ? cf / film : 1.0 / (film * cf),
-            b = parallel ? cb / base : 1.0 / (base * cb);  // inverse admittances
+/// Reflectance by the characteristic matrix of the film (Born and Wolf, 1.6.2), in the angle of
+/// cosine `c` and the index of `near`; `phases` is 2 pi thickness / wavelength.
+Ld matrix_oracle(Ld c, Ld near, C film, C base, Ld phases) {
+  const C s2 = near * near * (1 - c * c), cf = std::sqrt(Ld(1) - s2 / (film * film)),
+          cb = std::sqrt(Ld(1) - s2 / (base * base));
+  const C beta = phases * film * cf;
+  Ld sum = 0;
+  for (bool parallel : {false, true}) {  // inverse admittances
+    const C a = parallel ? c / near : 1 / (near * c),
+            f = parallel ? cf / film : Ld(1) / (film * cf),
+            b = parallel ? cb / base : Ld(1) / (base * cb);
     const C i(0, 1), e = std::cos(beta) - i * std::sin(beta) * f / b,
                      h = std::cos(beta) / b - i * std::sin(beta) / f;
     sum += std::norm((e - h * a) / (e + h * a));
@@ -52,12 +57,39 @@ TEST_CASE("thin films reflect as characteristic matrices say") {
         const auto metal = weights(film_conductor(0.3, 3.2, film, thickness, lambda, 0), wo, true);
         const auto glass = weights(film_dielectric(1.5, film, thickness, lambda), wo, true);
         for (int j = 0; j < kWavelengths; ++j) {
-          const double m = matrix_oracle(wo.z, film, C(0.3, 3.2), thickness, lambda[j]);
-          const double g = matrix_oracle(wo.z, film, 1.5, thickness, lambda[j]);
+          const double phases = 2 * kPi<double> * thickness / lambda[j];
+          const double m = matrix_oracle(wo.z, 1, film, C(0.3, 3.2), phases);
+          const double g = matrix_oracle(wo.z, 1, film, 1.5, phases);
           CHECK(metal[j] == doctest::Approx(m).epsilon(1e-9));
           CHECK(std::abs(glass[j] - g) < 1e-11);
         }
       }
+}
+
+TEST_CASE("what goes through a film has its digits in float, however little it is") {
+  double worst = 0, worst_r = 0;
+  struct Sides {
+    float near;
+    std::complex<float> far;
+  };
+  for (const Sides& s : {Sides{1, 1.5f}, {1.5f, 1}, {1, 2.5f}, {1, {0.3f, 3.2f}}, {1, {2.5f, 3}}})
+    for (float film : {1.01f, 1.38f, 2.2f})
+      for (float phases : {0.0f, 0.5f, 1.3f, 5.0f})
+        for (float c : {1e-7f, 1e-5f, 1e-3f, 0.05f, 0.3f, 0.6f, 0.8f, 0.95f, 1.0f}) {
+          if (refraction_g2(c, std::abs(s.far) / s.near) < 0) continue;
+          materials::Film<float> f(film, 0, 1);
+          f.phases = phases;
+          const auto got = f.split(c, s.near, s.far);
+          const Ld r = matrix_oracle(c, s.near, film, C(s.far), phases);
+          const double error = double(std::abs(got.transmitted - (1 - r)) / (1 - r));
+          const double error_r = double(std::abs(got.reflected - r));
+          worst = std::max(worst, error), worst_r = std::max(worst_r, error_r);
+          // About forty roundings; those of the phase are turned `phases` film times.
+          const double bound = 6e-8 * (40 + 2 * phases * film);
+          CHECK_MESSAGE(error < bound, s.near, " ", film, " ", phases, " ", c);
+          CHECK_MESSAGE(error_r < bound, s.near, " ", film, " ", phases, " ", c);
+        }
+  MESSAGE("largest error of what is transmitted, relative, ", worst, "; reflected, ", worst_r);
 }
 
 TEST_CASE("a quarter wave of the root of the index does not reflect") {
