@@ -45,11 +45,11 @@
 /// (materials/glass_coat.h), and seen from inside nothing else:
 ///   base: T(outside), T T' / T(1), or 1
 /// so that lossless glass is 1 from both sides: smooth 1e-5 (`dielectric`, `beckmann_dielectric`,
-/// `film_dielectric`, `phong_glass`, `refraction`), round facets of roughness from 0.1 1e-3, from
-/// 0.02 2e-3, for indices of both between 1 and 4; stretched ones 1e-3 up to anisotropy 0.7, 2.5e-3
-/// at 0.9; below a polished coat under another of index below 1.03, 3e-3. `phong_glass` that is
-/// rough, and other indices, get min(T, T') as if both directions were outside, and lose up to a
-/// tenth about the critical angle.
+/// `film_dielectric`, `phong_glass`, `refraction`), round facets of roughness from 0.02 and
+/// stretched ones from 0.1, of anisotropy up to 0.9, 1e-3 for indices of both between 1.01 and 4, as
+/// without a coat; Beckmann's of anisotropy 0.9 1.5e-3; below a polished coat under another of index
+/// below 1.03, 3e-3. `phong_glass` that is rough, and other indices, get min(T, T') as if both
+/// directions were outside, and lose up to a tenth about the critical angle.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`:

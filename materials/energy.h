@@ -50,7 +50,7 @@ inline constexpr float kGgxLeastMean = 0.1f, kBeckmannLeastMean = 0.003f;
 /// `kink` of both.
 inline constexpr float kGgxKink = 0.6f, kBeckmannKink = 0;
 /// `bent` of both.
-inline constexpr BentGrid kGgxBent[] = {{11, 14, 26, 12}, {12, 20, 28, 14}};
+inline constexpr BentGrid kGgxBent[] = {{11, 14, 26, 12}, {12, 20, 34, 14}};
 inline constexpr BentGrid kBeckmannBent[] = {{12, 14, 26, 12}, {18, 25, 32, 14}};
 
 /// How directions and widths are laid out over [0, 1] along the axes of the tables.
@@ -63,7 +63,7 @@ inline constexpr int kStretchedAlpha = 23, kAspect = 10, kAzimuth = 13, kStretch
 inline constexpr int kStretchedMean = 65, kMeanAspect = 12;
 /// [1] where the index falls on the far side: the loss has a ridge along the critical angle there.
 inline constexpr int kInterfaceAlpha[] = {23, 35}, kIndex[] = {33, 43};
-inline constexpr int kInterfaceDirection[] = {55, 75};
+inline constexpr int kInterfaceDirection[] = {55, 120};
 inline constexpr int kInterfaceMean = 65;
 /// Bent: of stretched facets of an interface; other nodes in BentGrid.
 inline constexpr int kBentMeanAlpha = 25, kBentMeanAspect = 10, kBentMeanIndex = 32;
@@ -225,6 +225,14 @@ inline R bent_index(R eta) {
   return x > 0 ? std::pow(x, R(kBentIndexPower[eta < 1])) : R(0);
 }
 
+/// How much azimuths of stretched facets are widened next to the narrower axis (Shape): losses
+/// change fastest there, but for wide facets that light leaves a high index through.
+inline constexpr double kWidening = 0.15;
+template <class R>
+inline R widening(R eta, R like) {
+  return eta < 1 ? R(kWidening) - R(0.2) * bent_index(eta) * like : R(kWidening);
+}
+
 template <class R>
 inline R gloss(R n) {
   return std::log1p(n) / R(std::log1p(kLargestGloss));
@@ -292,22 +300,24 @@ struct FacetLoss {
 
 /// How stretched facets look along a direction: a point of the unit disc, whose centre is round
 /// facets and whose rim those ten times as wide along one axis as along the other. Half the angle
-/// there is the direction's azimuth from the narrower axis, a little widened next to it, where
-/// losses change fastest.
+/// there is the direction's azimuth from the narrower axis, a little widened next to it or away
+/// from it (axes::widening).
 template <class R>
 struct Shape {
   R u = 0, v = 0;
 
   /// `x` along the wider axis.
-  static Shape of(R wide, R narrow, R x, R y) {
+  static Shape of(R wide, R narrow, R x, R y, R widening = R(axes::kWidening)) {
     const R radius = (wide - narrow) / (wide + narrow) * R(11.0 / 9);
-    x *= widened(radius);
+    x *= widened(radius, widening);
     const R length2 = x * x + y * y;
     if (!(length2 > 0)) return {-radius, 0};
     return {radius * ((y - x) * (y + x) / length2), radius * (2 * std::abs(x * y) / length2)};
   }
   /// How much tangents of azimuths are: this is smooth at the centre too.
-  static R widened(R radius) { return (1 + R(0.15) * radius) / (1 - R(0.15) * radius); }
+  static R widened(R radius, R widening) {
+    return (1 + widening * radius) / (1 - widening * radius);
+  }
 };
 
 /// Polynomials over the disc of shapes, even in v and 0 at its centre: products of Chebyshev's, of
@@ -364,7 +374,7 @@ struct StretchedInterface {
     const R area = wide * narrow;
     return area / (area * (x * x + y * y) + z * z);
   }
-  Shape<R> shape() const { return Shape<R>::of(wide, narrow, x, y); }
+  Shape<R> shape(R widening) const { return Shape<R>::of(wide, narrow, x, y, widening); }
 };
 
 /// The loss of a rough dielectric of relative index `eta` (far side over near side). `ax`, `ay` >
@@ -424,7 +434,7 @@ struct InterfaceLoss {
     using Basis = ShapeBasis<R>;
     const BentGrid& grid = tables->bent[falls()];
     const int terms = Basis::terms(grid.degree);
-    const Basis basis(f.shape(), grid.degree);
+    const Basis basis(f.shape(widening(eta, like)), grid.degree);
     const auto a = Stencil<R>::at(bent_width(like), grid.width);
     const auto n = Stencil<R>::at(bent_index(eta), grid.index);
     const auto d =

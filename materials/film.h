@@ -27,11 +27,11 @@ struct Film {
 
   /// Of light at the cosine of incidence `c` in [0, 1], between `near` and `far`: transmitted is
   /// what is absorbed in, or goes on through, what lies beyond. Each directly, by the amplitudes of
-  /// the characteristic matrix, N / D with
-  ///   N, D = (y_1 -+ y_3) cos b - i (y_1 y_3 / y_2 -+ y_2) sin b,    1 - |N / D|^2 =
-  ///          4 y_1 Re y_3 / |D|^2,    b = phases g
+  /// the characteristic matrix,
+  ///   N, D = (y_1 -+ y_3) cos b - i (y_1 y_3 / y_2 -+ y_2) sin b,  b = phases g
+  ///   reflected |N / D|^2, transmitted 4 y_1 Re y_3 / |D|^2
   /// of the admittances y = g (s) and g / n^2 (p), g = n cos. All but those of `far` are real: sine
-  /// and cosine are hyperbolic where the film reflects totally, and then both divided by the cosine.
+  /// and cosine are hyperbolic where the film reflects totally, and then divided by the cosine.
   FresnelSplit<R> split(R c, R near, std::complex<R> far) const {
     using C = std::complex<R>;
     const R g1 = near * c, film2 = normal_square(c, near, ior), g2 = std::sqrt(std::abs(film2));

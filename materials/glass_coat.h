@@ -38,13 +38,13 @@ namespace mms::materials {
 
 namespace axes {
 /// Of glass below coats: [0] seen from outside, [1] from inside.
-inline constexpr int kGlassAlpha = 28, kGlassIndex = 16, kGlassDirection[] = {44, 80},
+inline constexpr int kGlassAlpha = 28, kGlassIndex = 20, kGlassDirection[] = {44, 80},
                      kGlassCoat[] = {20, 14};
 /// The same of stretched facets, and the degree of polynomials over their shapes.
 struct BentGlassGrid {
   int width, index, direction, coat, degree;
 };
-inline constexpr BentGlassGrid kBentGlass[] = {{9, 9, 15, 6, 10}, {15, 18, 22, 6, 10}};
+inline constexpr BentGlassGrid kBentGlass[] = {{9, 9, 15, 6, 10}, {15, 18, 25, 8, 10}};
 /// The ends of the axes of both indices, 1.0002 and 4, and the least width, nearly a mirror's.
 inline constexpr double kLeastGlassIndex = 0.1, kMostGlassIndex = 0.8801117;
 inline constexpr double kLeastGlassAlpha = 0.0464;
@@ -188,7 +188,7 @@ inline SentParts<R> shape_parts(const GlassTables& tables, const StretchedInterf
   const auto n = Stencil<R>::at(glass_index(glass), grid.index);
   const auto d = Stencil<R>::at(glass_direction(inside, f.z, s, alpha, glass), grid.direction);
   const int directions = coefficients(grid.direction), indices = coefficients(grid.index);
-  const Basis basis(f.shape(), grid.degree);
+  const Basis basis(f.shape(widening(inside ? 1 / glass : glass, alpha)), grid.degree);
   const int terms = basis.count;
   R sums[kRest * Basis::kMost] = {};
   SentParts<R> parts;

@@ -118,7 +118,7 @@ std::vector<float> stretched_difference(bool rising, const InterfaceTables& roun
   const Grid values({widths, indices, directions, count}, [&](const double* x) {
     const double like = std::pow(kLeastBentRoot + (1 - kLeastBentRoot) * x[0], 2);
     const double eta = bent_index_at(x[1], rising);
-    auto seen = shapes.facets(int(std::lround(x[3] * (count - 1))));
+    auto seen = shapes.facets(int(std::lround(x[3] * (count - 1))), widening(eta, like));
     const double along = std::hypot(seen.wide * seen.x, seen.narrow * seen.y);
     const double root = like / (along + like * (1 - along));  // the inverse of like()
     seen.wide *= root, seen.narrow *= root;

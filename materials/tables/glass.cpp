@@ -191,7 +191,7 @@ Bent bent_side(const GlassTables& round) {
     const double glass = index_at(double(i % grid.index) / (grid.index - 1));
     std::vector<std::vector<double>> values(grid.direction * columns, std::vector<double>(count));
     for (int shape = 0; shape < count; ++shape) {
-      auto seen = shapes.facets(shape);
+      auto seen = shapes.facets(shape, axes::widening(Inside ? 1 / glass : glass, like));
       const double x = seen.x, y = seen.y, along = std::hypot(seen.wide * x, seen.narrow * y);
       const double root = like / (along + like * (1 - along));  // the inverse of like()
       seen.wide *= root, seen.narrow *= root;

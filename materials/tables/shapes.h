@@ -51,11 +51,12 @@ class ShapeFit {
   int terms() const { return terms_; }
 
   /// Facets that look so along the tangent (x, y), with z = 0, whose widths have the product 1.
-  StretchedInterface<double> facets(int i) const {
+  StretchedInterface<double> facets(int i, double widening = axes::kWidening) const {
     const auto [u, v] = shapes_[i];
     const double radius = std::hypot(u, v) * 9 / 11, aspect = (1 + radius) / (1 - radius);
     const double turn = std::atan2(v, u) / 2;  // from the narrower axis, widened
-    const double wide = std::sqrt(aspect), widened = Shape<double>::widened(std::hypot(u, v));
+    const double wide = std::sqrt(aspect),
+                 widened = Shape<double>::widened(std::hypot(u, v), widening);
     const Vec3d w = normalize(Vec3d{std::sin(turn) / widened, std::cos(turn), 0});
     return {wide, 1 / wide, w.x, w.y, 0};
   }

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/quadrature.h"
 #include "tests/sanitized.h"
@@ -130,25 +131,32 @@ double glass_albedo(const Material& m, const Facets& facets, double ior, Vec3d w
   // The rest is alike in each quarter of a turn: in one across wo, where the first bounce is small.
   const int azimuths = facets.ax == facets.ay ? 1 : 12;
   double rest = 0;
-  const int panels = azimuths == 1 ? 48 : 12;  // a ridge of what is lost is as narrow as alpha
-  for (const double to : {1.0, -1.0})
+  const int panels = azimuths == 1 ? 16 : 8;
+  for (const double to : {1.0, -1.0}) {
+    // What is lost has a ridge as narrow as alpha along the critical angle, and ends in the
+    // surface.
+    const double beyond = to > 0 ? face.eta : 1 / face.eta;
+    const double ridge = std::pow(std::max(0.0, (1 - beyond) * (1 + beyond)), 0.25);
     for (int a = 0; a < azimuths && !(far && to > 0); ++a) {
       const double phi = (a + 0.5) / azimuths * kPi<double> / 2;
       const Vec3d across{std::copysign(std::cos(phi), -up.x), std::copysign(std::sin(phi), up.y),
                          0};
-      for (int k = 0; k < panels; ++k)
-        rest += integrate<8>(
-            [&](double u) {
-              const double z = u * u;
-              const Vec3d wi = across * std::sqrt(1 - z * z) + Vec3d{0, 0, z * to};
-              const double all =
-                  bsdf.evaluate(wo, {wi.x, wi.y, wi.z * side}, materials::Mode::Importance, choice)
-                      .f[0];
-              const double once = face.value(up, wi) * weight(wi);
-              return 4 * kPi<double> * u * z * (all - once) / azimuths;
-            },
-            double(k) / panels, (k + 1.0) / panels);
+      const auto more = [&](double u) {
+        const double z = u * u;
+        const Vec3d wi = across * std::sqrt(1 - z * z) + Vec3d{0, 0, z * to};
+        const double all =
+            bsdf.evaluate(wo, {wi.x, wi.y, wi.z * side}, materials::Mode::Importance, choice).f[0];
+        return 4 * kPi<double> * u * z * (all - face.value(up, wi) * weight(wi)) / azimuths;
+      };
+      for (const auto& [from, reach] : {std::pair(0.0, ridge), std::pair(ridge, 1 - ridge)})
+        for (int k = 0; reach > 0 && k < panels; ++k)
+          rest += reach * integrate<8>(
+                              [&](double t) {  // crowded at both ends
+                                return more(from + reach * t * t * (3 - 2 * t)) * 6 * t * (1 - t);
+                              },
+                              double(k) / panels, (k + 1.0) / panels);
     }
+  }
   const auto asked = [&](Vec3d w) { return far && w.z > 0 ? 0.0 : weight(w); };
   return face.once(up, kSanitized ? 100 : 200, asked) + rest;
 }
