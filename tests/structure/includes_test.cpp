@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The folder listing is the architecture: includes run one way.
+// The folder listing is the architecture: includes run one way. And CONTRIBUTING.md lists what
+// tests read from the environment.
 #include "tests/structure/includes.h"
 #include "tests/source_dir.h"
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
+#include <set>
 
 #include <doctest/doctest.h>
 
@@ -76,4 +79,22 @@ TEST_CASE("third-party headers stand where the table says") {
   CHECK(check(rules(), "tools/x.cpp", "#include <OpenImageIO/imageio.h>").size() == 1);
   CHECK(check(rules(), "base/x.cpp", "#include <fmt/format.h>").size() == 1);
   CHECK(check(rules(), "tests/x.cpp", "#include <doctest/doctest.h>").empty());
+}
+
+TEST_CASE("CONTRIBUTING.md lists every variable that a test reads, and no other") {
+  const auto all = [](const std::string& text, const char* pattern) {
+    const std::regex name(pattern);
+    std::set<std::string> names;
+    for (std::sregex_iterator it(text.begin(), text.end(), name), end; it != end; ++it)
+      names.insert((*it)[1]);
+    return names;
+  };
+  std::set<std::string> read_by_tests;
+  for (const auto& entry : fs::recursive_directory_iterator(mms::source_dir() / "tests"))
+    if (entry.is_regular_file() && is_source(entry.path()))
+      read_by_tests.merge(
+          all(read(entry.path()), "(?:getenv|setting|from_environment)\\(\"(MMS_[A-Z_]+)\""));
+  CHECK(read_by_tests.contains("MMS_KILLS"));
+  CHECK(read_by_tests ==
+        all(read(mms::source_dir() / "CONTRIBUTING.md"), "\n\\| `(MMS_[A-Z_]+)` \\|"));
 }
