@@ -15,7 +15,7 @@
 #include "materials/combine.h"
 #include "materials/conductor.h"
 #include "materials/film.h"
-#include "materials/glossy.h"
+#include "materials/glossy_refraction.h"
 #include "materials/matte.h"
 #include "materials/oren_nayar.h"
 #include "materials/phong_glass.h"
@@ -155,6 +155,8 @@ Result Bsdf<R>::with_model(int i, Result none, Visit visit) const {
       return visit(Mirror<R>(p));
     case Lobe::Refraction:
       return visit(Refraction<R>(p));
+    case Lobe::GlossyRefraction:
+      return visit(GlossyRefraction<R>(p));
     case Lobe::Isotropic:
     case Lobe::HenyeyGreenstein:
     case Lobe::RayleighPhase:

@@ -14,7 +14,8 @@
 /// P5(n_phi s_i s_r). f_theta is the density of a Frank copula: its marginals are uniform and it is
 /// symmetric, hence albedo 1 for colour 1 and reciprocity (bitwise: only symmetric expressions of
 /// the two directions enter). `glossy_back` and `glossy_through` turn the lobe around the direction
-/// that light came from and the one in which it went on. Near grazing the lobe moves away from the
+/// that light came from and the one in which it went on; `glossy_refraction` is the latter, bent
+/// (materials/glossy_refraction.h). Near grazing the lobe moves away from the
 /// horizon: that is the model.
 
 #include "materials/coated.h"
@@ -178,8 +179,13 @@ struct GlossyLobe {
     const R x = wi.z * wi.z, y = wo.z * wo.z;
     const R d = x + y > 1 ? difference_of_products(ax - bx, ax + bx, by - ay, by + ay)
                           : (wi.z - wo.z) * (wi.z + wo.z);
-    const R latitude = Latitude<R>(gloss).density((x + y) / 2, (a2 + b2) / 2, d);
-    const R ss = std::sqrt(a2) * std::sqrt(b2);
+    return 2 * Latitude<R>(gloss).density((x + y) / 2, (a2 + b2) / 2, d) *
+           around_normal(ax, ay, bx, by);
+  }
+
+  /// f_phi of the tangents of the mirror direction (a) and of wi (b).
+  R around_normal(R ax, R ay, R bx, R by) const {
+    const R ss = std::sqrt(ax * ax + ay * ay) * std::sqrt(bx * bx + by * by);
     const R n = effective(ss);
     const R along = ax * bx + ay * by;
     // The larger product first, so that exchanging wo and wi gives the same bits.
@@ -189,7 +195,7 @@ struct GlossyLobe {
     const R u = !(ss > 0)   ? R(0)
                 : along > 0 ? n / ss * (across * across / (ss + along))
                             : n / ss * (ss - along);
-    return 2 * latitude * Longitude<R>{n}.density(u);
+    return Longitude<R>{n}.density(u);
   }
 
   Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode) const {
@@ -198,20 +204,29 @@ struct GlossyLobe {
   }
 
   bool sample(Vec3<R> wo, R, R u1, R u2, Vec3<R>& wi) const {
-    const R xi = std::min(u1, 1 - std::numeric_limits<R>::epsilon() / 2);
     const R y = wo.z * wo.z, s2 = wo.x * wo.x + wo.y * wo.y;
+    const auto [x, r2] = draw_latitude(u1, y, s2);
+    wi = turned(wo, x, r2, u2);
+    if (!(wi.z > 0)) return false;
+    wi = unfolded(to_upper(wi, wo));
+    return true;
+  }
+
+  /// x and 1 - x for `y` and 1 - y.
+  std::pair<R, R> draw_latitude(R u1, R y, R one_minus_y) const {
+    const R xi = std::min(u1, 1 - std::numeric_limits<R>::epsilon() / 2);
     const Latitude<R> latitude(gloss);
-    const R x = latitude.inverse(xi, 1 - xi, y, s2);
-    const R r2 = latitude.inverse(1 - xi, xi, s2, y);
-    const R r = std::sqrt(r2), s = std::sqrt(s2);
+    return {latitude.inverse(xi, 1 - xi, y, one_minus_y),
+            latitude.inverse(1 - xi, xi, one_minus_y, y)};
+  }
+  /// The direction of that squared cosine and sine whose azimuth `u2` draws, z > 0.
+  Vec3<R> turned(Vec3<R> wo, R x, R r2, R u2) const {
+    const R r = std::sqrt(r2), s = std::sqrt(wo.x * wo.x + wo.y * wo.y);
     const R dphi = Longitude<R>{effective(r * s)}.sample(u2);
     // Turn the mirror direction's tangent by dphi; any tangent will do at normal incidence.
     const R tx = s > 0 ? -wo.x / s : R(1), ty = s > 0 ? -wo.y / s : R(0);
     const R c = std::cos(dphi), sn = std::sin(dphi);
-    wi = normalize(Vec3<R>{r * (tx * c - ty * sn), r * (ty * c + tx * sn), std::sqrt(x)});
-    if (!(wi.z > 0)) return false;
-    wi = unfolded(to_upper(wi, wo));
-    return true;
+    return normalize(Vec3<R>{r * (tx * c - ty * sn), r * (ty * c + tx * sn), std::sqrt(x)});
   }
 
  private:

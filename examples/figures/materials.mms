@@ -34,6 +34,7 @@ surface phong_glass bsdf = phong_glass(1.5, 400.0); end
 // Smooth.
 surface mirror bsdf = mirror(1); end
 surface refraction bsdf = refraction(1.3); end
+surface glossy_refraction bsdf = glossy_refraction(1.3, 1, 400.0, 400.0); end
 surface slab bsdf = slab(1.5, 1.0, rgb(0.9, 0.3, 0.6)); end
 surface film_conductor bsdf = film_conductor(2.5, 3.0, 1.5, 300nm, $wavelength, 0.2); end
 surface film_dielectric bsdf = film_dielectric(1.0, 1.33, 400nm, $wavelength); end

@@ -47,6 +47,7 @@ std::vector<Demand> demands() {
       {"glossy_product", tinted(Lobe::GlossyProduct, 1, {5, 9}), true, true},
       {"glossy_back", tinted(Lobe::GlossyBack, 1, {5, 9}), true, true},
       {"glossy_through", tinted(Lobe::GlossyThrough, 1, {5, 9}), true, true},
+      {"glossy_refraction", glossy_refraction(1.5, {5, 9}), false, false},
       {"oren_nayar", tinted(Lobe::OrenNayar, 1, {0.5}), true, false},
       {"rough_matte", tinted(Lobe::RoughMatte, 1, {0.5}), true, false},
       {"phong", tinted(Lobe::Phong, 1, {4}), false, true},
@@ -240,6 +241,8 @@ TEST_CASE("gloss towards infinity is the mirror, and is handed over to it withou
       pair("glossy", Lobe::Glossy, {4.99e4}, {5.01e4}, 1e-3),
       pair("glossy_product", Lobe::GlossyProduct, {4.99e4, 9.99e6}, {5.01e4, 1.01e7}, 1e-3),
       pair("glossy_through", Lobe::GlossyThrough, {4.99e4, 9.99e6}, {5.01e4, 1.01e7}, 1e-3),
+      {"glossy_refraction", glossy_refraction(1.5, {4.99e4, 9.99e6}, 0.7),
+       glossy_refraction(1.5, {5.01e4, 1.01e7}, 0.7), 1e-3},
       // The reciprocal Phong keeps the cosine, however narrow.
       {"phong", tinted(Lobe::Phong, 0.7, {0.999e7}), tinted(Lobe::Phong, 0.7, {1.001e7}), 1e-3,
        [](double c) { return 0.7 * c; }},

@@ -146,3 +146,42 @@ TEST_CASE("turned glossy lobes are the mirrored one") {
     CHECK(value(Lobe::GlossyThrough, o, {i.x, i.y, -i.z}) == f);
   }
 }
+
+TEST_CASE("the glossy lobe around refraction is the one that goes through, bent") {
+  const auto value = [](const Material& m, Vec3d o, Vec3d i) {
+    const materials::Layout layout = m.layout();
+    const auto p = m.params<double>();
+    return Bsdf<double>(layout, p.data()).eval(o, i, Mode::Importance)[0];
+  };
+  const double n = 1.5, critical = std::asin(1 / n) * 180 / kPi<double>;
+  const auto sine = [](double degrees) { return std::sin(degrees * kPi<double> / 180); };
+  const Material through = tinted(Lobe::GlossyThrough, 1, {30, 80});
+  const Material bent = glossy_refraction(n, {30, 80}), same = glossy_refraction(1, {30, 80});
+  for (double a : {5.0, 50.0, 89.0})
+    for (double b : {10.0, 50.0, 80.0}) {
+      const Vec3d o = direction(a, 0.3), i = direction(180 - b, 3.2);
+      const double f = value(through, o, i);
+      CHECK(value(same, o, i) == f);
+      // By Snell's law, within the cone of what is refracted.
+      const Vec3d inside = direction(180 - std::asin(sine(b) / n) * 180 / kPi<double>, 3.2);
+      CHECK(value(bent, o, inside) == doctest::Approx(n * n * f).epsilon(1e-10));
+      CHECK(value(bent, inside, o) == doctest::Approx(f).epsilon(1e-10));
+      CHECK(value(glossy_refraction(1 / n, {30, 80}), {o.x, o.y, -o.z},
+                  {inside.x, inside.y, -inside.z}) == doctest::Approx(n * n * f).epsilon(1e-10));
+      CHECK(value(bent, o, {i.x, i.y, -i.z}) == 0);
+    }
+  // What is reflected totally: cos^2, of which there is k, is stretched to all of [0, 1].
+  const double k = 1 - 1 / (n * n);
+  const Material flat = tinted(Lobe::GlossyProduct, 1, {30, 0});
+  const auto stretched = [&](double degrees, double phi) {
+    const double z = std::cos(degrees * kPi<double> / 180);
+    return direction(std::acos(std::sqrt(z * z / k)) * 180 / kPi<double>, phi);
+  };
+  for (double a : {critical + 0.5, 60.0, 88.0})
+    for (double b : {critical + 5, 75.0, 89.0}) {
+      const double expected = value(flat, stretched(a, 0.3), stretched(b, 2)) / k;
+      CHECK(value(glossy_refraction(n, {30, 0}), direction(180 - a, 0.3), direction(180 - b, 2)) ==
+            doctest::Approx(expected).epsilon(1e-10));
+      CHECK(value(bent, direction(180 - a, 0.3), direction(critical - 1, 2)) == 0);
+    }
+}

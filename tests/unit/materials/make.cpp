@@ -106,6 +106,9 @@ Material coloured_metal(Value facing, Value edge, double roughness) {
 Material mirror(Value c) { return node(Lobe::Mirror, {}, {c}); }
 
 Material refraction(Value ior, Value c) { return node(Lobe::Refraction, {}, {ior, c}); }
+Material glossy_refraction(Value ior, std::vector<double> gloss, Value c) {
+  return node(Lobe::GlossyRefraction, {}, {ior, c}, std::move(gloss));
+}
 
 Material interface(Lobe lobe, Value ior, double number, Value r, Value t) {
   Material m = node(lobe, {}, {ior}, {number});

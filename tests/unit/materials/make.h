@@ -53,6 +53,7 @@ Material conductor(Value n, Value k, double roughness = 0, double anisotropy = 0
 Material coloured_metal(Value facing, Value edge, double roughness);
 Material mirror(Value c);
 Material refraction(Value ior, Value c = 1);
+Material glossy_refraction(Value ior, std::vector<double> gloss, Value c = 1);
 /// An interface: index, a number, two tints.
 Material interface(Lobe lobe, Value ior, double number, Value r, Value t);
 Material dielectric(Value ior, double roughness = 0, Value r = 1, Value t = 1,

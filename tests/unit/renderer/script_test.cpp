@@ -301,6 +301,7 @@ TEST_CASE("a lossless material is as bright as its light, in a render") {
                            "glossy(1, 1000)",
                            "glossy_back(1)",
                            "glossy_through(1)",
+                           "glossy_refraction(1.5)",
                            "mirror(1)",
                            "microfacet(1, 0.5)",
                            "microfacet(1, 0.5, 0.7)",

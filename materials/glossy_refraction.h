@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// `glossy_refraction`: the thesis' glossy lobe (section 6.3) around ideal refraction, without
+/// Fresnel loss. Directions on the side of the higher index n within the critical angle are those
+/// on the other side, bent: (t, z) there is (n t, sqrt(1 - n^2 t^2)), and covers n^2 times as much
+/// projected solid angle. With g the lobe of `glossy_through` between two directions of the side of
+/// the lower index,
+///
+///   f = n_i^2 g       of importance, n_i the index on the side of wi: n, or 1
+///
+/// Beyond the critical angle light is reflected, by the lobe over what is left: with
+/// k = 1 - 1 / n^2, X = cos^2 theta / k and f_theta, f_phi of materials/glossy.h,
+///
+///   f = 2 f_theta(X, Y) f_phi / k
+///
+/// All of it is lossless for colour 1 from both sides, and reciprocal. At index 1 it is
+/// `glossy_through`, and beyond all gloss `refraction`.
+
+#include "materials/glossy.h"
+
+namespace mms::materials {
+
+template <class R>
+struct GlossyRefraction {
+  const R* numbers;
+  GlossyProduct<R> lobe;
+
+  explicit GlossyRefraction(const R* p) : numbers(p), lobe(p + kWavelengths) {}
+
+  bool specular() const { return lobe.specular(); }
+  Spectrum<R> estimate(Vec3<R>) const { return lobe.colour; }
+  SpecularTerms<R> terms(Vec3<R> wo) const { return Refraction<R>(numbers).terms(wo); }
+
+  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode) const {
+    Lobes<R> out;
+    R eta = 1, f = 0;
+    for_each_index(numbers, [&](int j, bool repeated) {
+      if (!repeated) {
+        eta = relative_eta(numbers[j], wo);
+        f = value(wo, wi, eta);
+      }
+      const R scale = same_side(wo, wi) || mode == Mode::Importance ? R(1) : 1 / (eta * eta);
+      out.f[j] = lobe.colour[j] * f * scale;
+      out.pdf[j] = f * std::abs(wi.z);
+    });
+    return out;
+  }
+
+  bool sample(Vec3<R> wo, R, R u1, R u2, Vec3<R>& wi) const {
+    const R eta = relative_eta(numbers[0], wo);
+    const Vec3<R> o = to_upper(wo, wo);
+    if (beyond(o.z, eta)) {
+      const R k = (1 - eta) * (1 + eta), y = std::min(o.z * o.z / k, R(1));
+      const R x = k * lobe.draw_latitude(u1, y, 1 - y).first;
+      wi = lobe.turned(o, x, 1 - x, u2);
+      if (!(wi.z > 0)) return false;
+    } else {
+      Vec3<R> i;
+      if (!lobe.sample(eta < 1 ? -refracted(o, eta) : o, 0, u1, u2, i)) return false;
+      wi = eta < 1 ? Vec3<R>{i.x, i.y, -i.z} : refracted(Vec3<R>{-i.x, -i.y, i.z}, eta);
+      if (!(wi.z < 0)) return false;
+    }
+    wi = to_upper(wi, wo);
+    return true;
+  }
+
+ private:
+  /// Whether light at the cosine `c` is reflected totally; `eta` is the index beyond over its own.
+  static bool beyond(R c, R eta) { return eta < 1 && !(refraction_g2(std::min(c, R(1)), eta) > 0); }
+
+  /// f of importance for colour 1; `eta` as of wo.
+  R value(Vec3<R> wo, Vec3<R> wi, R eta) const {
+    const Vec3<R> o = to_upper(wo, wo), i = to_upper(wi, wo);
+    if (same_side(wo, wi))
+      return beyond(o.z, eta) && beyond(i.z, eta) ? reflected(o, i, eta) : R(0);
+    const Vec3<R> through{i.x, i.y, -i.z};
+    if (eta < 1) return beyond(o.z, eta) ? R(0) : lobe.value(-refracted(o, eta), through);
+    if (beyond(through.z, 1 / eta)) return 0;
+    return eta * eta * lobe.value(o, eta == 1 ? through : -refracted(through, 1 / eta));
+  }
+
+  R reflected(Vec3<R> o, Vec3<R> i, R eta) const {
+    const R k = (1 - eta) * (1 + eta), x = std::min(i.z * i.z / k, R(1)),
+            y = std::min(o.z * o.z / k, R(1));
+    return 2 / k *
+           Latitude<R>(lobe.gloss)
+               .density((x + y) / 2, ((1 - x) + (1 - y)) / 2, (i.z - o.z) * (i.z + o.z) / k) *
+           lobe.around_normal(-o.x, -o.y, i.x, i.y);
+  }
+};
+
+}  // namespace mms::materials
