@@ -96,6 +96,7 @@ TEST_CASE("samples follow the density at other numbers of models that are swept 
   const std::vector<Case> cases = {
       {"glossy_back, wide", tinted(Lobe::GlossyBack, 1, {5, 9})},
       {"glossy_through, narrow", tinted(Lobe::GlossyThrough, 1, {200, 200})},
+      {"glossy_refraction, narrow", glossy_refraction(1.5, {200, 200})},
       {"spot, a hard edge", tinted(Lobe::Spot, 1, {0.5, 0.5})},
       {"conductor 0.7, anisotropic", conductor(1.5, 0.2, 0.7, 0.6)},
       {"coloured_metal 0.15", coloured_metal(0.4, 0.1, 0.15)},

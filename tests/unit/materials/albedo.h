@@ -87,6 +87,14 @@ inline double brightest_through(const materials::Bsdf<double>& bsdf, Vec3d wo) {
   return best;
 }
 
+/// cos^2 of the critical angle of `glossy_refraction` on the side of z > 0 or z < 0, where it ends;
+/// 0 of all other models, and on the side of the lower index.
+inline double end_of_lobe(const materials::Layout& layout, const double* p, bool upper) {
+  if (layout.nodes().back().lobe != Lobe::GlossyRefraction || upper == (p[0] > 1)) return 0;
+  const double n = std::max(p[0], 1 / p[0]);
+  return 1 - 1 / (n * n);
+}
+
 /// All that becomes of light along `wo`: by so many panels that half of them say the same within
 /// `tolerance`. Multiples of 7 have an edge where models change across wo (6/7 of the azimuth's
 /// axis, within 6e-4).
@@ -99,10 +107,10 @@ inline double two_sided(const Material& m, Vec3d wo, double tolerance) {
   if (bsdf.specular_only()) return sum;
   for (const bool across : {false, true}) {
     if (!(across ? layout.transmits() : layout.reflects())) continue;
-    const double peak = across ? brightest_through(bsdf, wo) : wo.z * wo.z;
-    const auto side = [&](int panels) {
-      return hemisphere(bsdf, wo, across != (wo.z > 0), peak, panels);
-    };
+    const bool upper = across != (wo.z > 0);
+    const double end = end_of_lobe(layout, p.data(), upper);
+    const double peak = end > 0 ? end : across ? brightest_through(bsdf, wo) : wo.z * wo.z;
+    const auto side = [&](int panels) { return hemisphere(bsdf, wo, upper, peak, panels); };
     double coarse = side(7), fine = side(14);
     for (int panels = 28; std::abs(fine - coarse) > tolerance; panels *= 2) {
       REQUIRE(panels <= 112);

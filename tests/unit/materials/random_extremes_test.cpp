@@ -408,13 +408,14 @@ TEST_CASE("random materials: no density integrates to above one; what lacks is w
   CHECK_MESSAGE(unresolved <= integrals / 50, unresolved, " of ", integrals);
 }
 
-TEST_CASE("narrow facets near the surface: densities integrate to what is drawn") {
+// Under sanitizers too little is drawn to say where lobes as narrow as these are.
+TEST_CASE("narrow facets near the surface: densities integrate to what is drawn" *
+          doctest::skip(kSanitized)) {
   // Lobes narrower than what rounding moves the half vector of two directions by.
   Masses masses;
   for (double roughness : {0.02, 0.03})
     for (const Material& m : {microfacet(1, roughness), microfacet(1, roughness, 0.5),
                               dielectric(1.5, roughness), beckmann(1, 1.5 * roughness)})
-      for (double degrees : {89.9, 89.99})
-        if (!kSanitized || degrees == 89.99) masses.add("facets", hero_only(m), degrees);
+      for (double degrees : {89.9, 89.99}) masses.add("facets", hero_only(m), degrees);
   CHECK(masses.unresolved <= 1);
 }
