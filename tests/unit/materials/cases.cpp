@@ -26,7 +26,7 @@ std::vector<Case> smooth_cases() {
   lossless("glossy_back", tinted(Lobe::GlossyBack, 1, {200, 200}));
   lossless("glossy_through", tinted(Lobe::GlossyThrough, 1, {15, 100}));
   lossless("glossy_refraction", glossy_refraction(1.5, {15, 100}));
-  lossless("glossy_refraction, dispersive", glossy_refraction(ramp(1.7, 1.3), {8, 10}));
+  lossless("glossy_refraction, dispersive", glossy_refraction(ramp(1.45, 1.3), {8, 10}));
   for (double sigma : {0.1, 0.8}) put("oren_nayar", tinted(Lobe::OrenNayar, 0.7, {sigma}));
   for (double r : {0.2, 1.0}) lossless("rough_matte", tinted(Lobe::RoughMatte, 1, {r}));
   put("rough_matte, coloured", tinted(Lobe::RoughMatte, ramp(0.2, 0.9), {0.6}));
