@@ -290,14 +290,14 @@ double half_mass(const Distribution& d, Vec3d pole, const std::vector<Vec3d>& dr
 }
 
 /// By quadrature, and the sum of the deltas that are drawn.
-Mass mass(const Distribution& d) {
+Mass mass(const Distribution& d, int draws) {
   stats::Random random(1);
   Mass m;
   std::vector<Vec3d> smooth, deltas;
-  for (int i = 0; i < kDraws; ++i) {
+  for (int i = 0; i < draws; ++i) {
     const auto s = d.draw(random);
     if (!s) {
-      m.failed += 1.0 / kDraws;
+      m.failed += 1.0 / draws;
     } else if (!(s->delta > 0)) {
       smooth.push_back(normalize(s->wi));
     } else if (std::find(deltas.begin(), deltas.end(), s->wi) == deltas.end()) {
@@ -314,7 +314,7 @@ Mass mass(const Distribution& d) {
 }
 
 /// Of what light along `degrees` meets, in float.
-Mass mass(const Material& m, double degrees) {
+Mass mass(const Material& m, double degrees, int draws) {
   using R = float;
   const materials::Layout layout = m.layout();
   const auto p = m.params<R>();
@@ -334,7 +334,8 @@ Mass mass(const Material& m, double degrees) {
                  }),
                  .pdf = [&](Vec3d wi) { return phase.pdf(wo, Vec3<R>(wi))[0]; },
                  .axis = normalize(Vec3d(wo)),
-                 .across = {0, 0, 1}});
+                 .across = {0, 0, 1}},
+                draws);
   }
   const Bsdf<R> bsdf(layout, p.data());
   const auto choice = bsdf.choose(wo);
@@ -347,23 +348,21 @@ Mass mass(const Material& m, double degrees) {
        .pdf =
            [&](Vec3d wi) { return bsdf.evaluate(wo, Vec3<R>(wi), Mode::Radiance, choice).pdf[0]; },
        .axis = {0, 0, 1},
-       .across = {-wo.y, wo.x, 0}});
+       .across = {-wo.y, wo.x, 0}},
+      draws);
 }
-
-}  // namespace
-
-namespace {
 
 /// Quadrature is within this, or else the lobe is too narrow for it, which few are.
 constexpr double kBound = 1e-3;
 
 /// Integrals of densities, each held to be at most 1 and to lack what is not drawn.
 struct Masses {
+  int draws = kDraws;
   int integrals = 0, unresolved = 0;
   double most = 0, largest_change = 0;
 
   void add(const std::string& name, const Material& m, double degrees) {
-    const Mass r = mass(m, degrees);
+    const Mass r = mass(m, degrees, draws);
     ++integrals;
     largest_change = std::max(largest_change, r.change);
     if (r.change > kBound) {
@@ -381,7 +380,7 @@ struct Masses {
     CHECK_MESSAGE(r.total() <= 1 + kBound, what());
     const double lacks = 1 - r.total();
     // Five standard deviations of the share that was not drawn.
-    const double e = std::sqrt(std::max(0.0, lacks) / kDraws);
+    const double e = std::sqrt(std::max(0.0, lacks) / draws);
     CHECK_MESSAGE(std::abs(lacks - r.failed) <= kBound + 5 * e, what());
   }
 };
@@ -408,14 +407,15 @@ TEST_CASE("random materials: no density integrates to above one; what lacks is w
   CHECK_MESSAGE(unresolved <= integrals / 50, unresolved, " of ", integrals);
 }
 
-// Under sanitizers too little is drawn to say where lobes as narrow as these are.
-TEST_CASE("narrow facets near the surface: densities integrate to what is drawn" *
-          doctest::skip(kSanitized)) {
+TEST_CASE("narrow facets near the surface: densities integrate to what is drawn") {
   // Lobes narrower than what rounding moves the half vector of two directions by.
-  Masses masses;
-  for (double roughness : {0.02, 0.03})
+  Masses masses{.draws = 8192};  // fewer do not say where lobes as narrow as these are
+  for (double roughness : {0.02, 0.03, 0.1})
     for (const Material& m : {microfacet(1, roughness), microfacet(1, roughness, 0.5),
                               dielectric(1.5, roughness), beckmann(1, 1.5 * roughness)})
-      for (double degrees : {89.9, 89.99}) masses.add("facets", hero_only(m), degrees);
+      for (double degrees : {89.9, 89.99}) {
+        if (roughness == 0.1 ? !kSanitized || degrees == 89.9 : kSanitized) continue;
+        masses.add("facets", hero_only(m), degrees);
+      }
   CHECK(masses.unresolved <= 1);
 }
