@@ -40,9 +40,8 @@ namespace axes {
 inline constexpr int kCoatedMatte = 5, kSpread = 32;
 /// s of the coats that lobes lie below in the tables.
 inline constexpr double kHeld[] = {0, 0.2, 0.5, 0.8, 1}, kStretchedHeld[] = {0, 0.3, 0.7, 1};
-/// Of stretched facets; the axis of the width is that of an interface. As a coat, E changes fast
-/// where the index is next to 1.
-inline constexpr int kStretchedCoatAlpha = 22, kStretchedCoatIndex = 14, kStretchedUnderIndex = 14,
+/// Of stretched facets; the axis of the width is that of an interface.
+inline constexpr int kStretchedCoatAlpha = 22, kStretchedCoatIndex = 20,
                      kStretchedCoatDirection = 28, kStretchedCoatDegree = 12;
 inline constexpr double kLeastCoatIndex = 0.1, kMostCoatIndex = 0.8801117;  ///< of 1.0002 and 4
 
@@ -126,16 +125,15 @@ struct FacetsAlong {
     return along / (1 + (along - std::sqrt(area)));
   }
 
-  /// The sum of `count` tables of so many indices, by weights, for relative index `eta` > 1 and a
-  /// direction at `place` of axes::coat_direction.
-  R difference(const float* const* tables, const R* weights, int count, int indices, R eta,
-               R place) const {
+  /// The sum of `count` tables, by weights, for relative index `eta` > 1 and a direction at `place`
+  /// of axes::coat_direction.
+  R difference(const float* const* tables, const R* weights, int count, R eta, R place) const {
     using namespace axes;
     using Basis = ShapeBasis<R>;
     constexpr int terms = Basis::terms(kStretchedCoatDegree),
-                  n1 = terms * coefficients(kStretchedCoatDirection);
-    const int n0 = n1 * coefficients(indices);
-    const auto n = Stencil<R>::at(stretched_coat_index(eta), indices);
+                  n1 = terms * coefficients(kStretchedCoatDirection),
+                  n0 = n1 * coefficients(kStretchedCoatIndex);
+    const auto n = Stencil<R>::at(stretched_coat_index(eta), kStretchedCoatIndex);
     const auto d = Stencil<R>::at(place, kStretchedCoatDirection);
     R sums[terms] = {};
     for (int b = 0; b < count; ++b)
@@ -216,25 +214,44 @@ struct CoatedLobe {
       // Below the axis few directions are not let through.
       constexpr R least = R(axes::kLeastCoatIndex * axes::kLeastCoatIndex * axes::kLeastCoatIndex *
                             axes::kLeastCoatIndex);
-      above += along.difference(tables->under_stretched, of_shape.data(), int(of_shape.size()),
-                                axes::kStretchedUnderIndex, eta, place) *
+      above += along.difference(tables->under_stretched, of_shape.data(), int(of_shape.size()), eta,
+                                place) *
                std::min((eta - 1) / (least * (eta + 1)), R(1));
     }
     return std::max(through + varies * above, through / 2);
   }
-  /// The same as a part of a coat, for E = `reflected`, where the logarithm of E varies `varies`
-  /// times as much as it does where no other coat is above.
-  R as_coat(R eta, R reflected, R varies = 1) const {
-    R quotient = interpolate_coat(tables->coat, width, eta, place);
-    if (stretched()) {
-      const R one = 1;
-      quotient +=
-          along.difference(&tables->coat_stretched, &one, 1, axes::kStretchedCoatIndex, eta, place);
-    }
-    return reflected * std::exp(limited(quotient * varies, R(-20), R(40)));
+  /// The same as a part of a coat, for E = `reflected`.
+  R as_coat(R eta, R reflected) const { return times_exp(reflected, log_quotient(eta)); }
+  /// The same of a coat that is `lower` below others, and `alone` where none is above. There E
+  /// varies little, and so most is of first order; the rest is as where it is alone, by the square
+  /// of how much less the logarithm of E rises.
+  R as_lower_coat(R eta, const CoatShape<R>& alone, const CoatShape<R>& lower) const {
+    const R rise = alone.rise(eta), varies = rise > 0 ? lower.rise(eta) / rise : R(1);
+    return times_exp(
+        lower.split(z, eta).reflected,
+        first_order(eta, lower) + varies * varies * (log_quotient(eta) - first_order(eta, alone)));
   }
 
  private:
+  static R times_exp(R x, R log) { return x * std::exp(limited(log, R(-20), R(40))); }
+
+  /// ln (G^2 / E) as a part of a coat.
+  R log_quotient(R eta) const {
+    R quotient = interpolate_coat(tables->coat, width, eta, place);
+    if (stretched()) {
+      const R one = 1;
+      quotient += along.difference(&tables->coat_stretched, &one, 1, eta, place);
+    }
+    return quotient;
+  }
+  /// The same of first order in what E varies by: G^2 - T is linear in T, and so is G^2 - E in E.
+  R first_order(R eta, const CoatShape<R>& coat) const {
+    const FresnelSplit<R> e = coat.split(z, eta);
+    if (!(e.reflected > 0)) return 0;
+    const R above = below(eta, coat, e.transmitted) - e.transmitted;
+    return std::log(std::max(1 - above / e.reflected, R(0.05)));
+  }
+
   CoatedLobe(const CoatedTables& its_tables, const Stencil<R>& its_width, R its_cosines, Vec3<R> w)
       : tables(&its_tables),
         width(its_width),

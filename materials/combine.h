@@ -26,7 +26,8 @@
 /// so that a lossless base under a lossless coat is 1 in every direction: round facets, `glossy`
 /// and both mattes under any such coat within 1e-4 for indices from 1.005 to 4 and roughness from
 /// 0.05, beyond these 4e-4, and towards index 1 or 8 1e-3; stretched facets in it or under it 1e-4
-/// up to anisotropy 0.9 for indices to 3, 3e-4 to 4, 4e-3 above, and in a coat of index 1.001 5e-3.
+/// up to anisotropy 0.9 for indices from 1.02 to 4 and roughness from 0.2, in a coat of index 1.005
+/// 2e-4, of 1.001 1e-3, and above 4 2e-2.
 /// All other lobes get
 ///   base: min(T, T')
 /// which never gains, as it is below T. All of these are symmetric. A specular coat over a Lambert
@@ -35,9 +36,9 @@
 ///
 /// Where a coat lies right under another, as plastic under varnish, and so on, T is the product of
 /// all coats above, and a lobe of a coat below others gets E of its coat times their T: g and h are
-/// then solved for (materials/under_coats.h), within 1e-4; of stretched facets within 2e-3 where
-/// the index above is next to 1. Of more than six coats g is the product of each alone: 5e-3. A
-/// coat whose index is 1 at every wavelength is not there.
+/// then solved for (materials/under_coats.h), within 1e-4; where facets of anisotropy 0.9 are part
+/// of two, 3e-4. Of more than six coats g is the product of each alone: 5e-3. A coat whose index is
+/// 1 at every wavelength is not there.
 ///
 /// Where the index is above 1, interfaces right below the coat, or below several, get what passes
 /// it once if light changes sides, twice if it stays outside, and never if it stays inside, along
@@ -46,10 +47,10 @@
 ///   base: T(outside), T T' / T(1), or 1
 /// so that lossless glass is 1 from both sides: smooth 1e-5 (`dielectric`, `beckmann_dielectric`,
 /// `film_dielectric`, `phong_glass`, `refraction`), round facets of roughness from 0.02 and
-/// stretched ones from 0.1, of anisotropy up to 0.9, 1e-3 for indices of both between 1.01 and 4, as
-/// without a coat; Beckmann's of anisotropy 0.9 1.5e-3; below a polished coat under another of index
-/// below 1.03, 3e-3. `phong_glass` that is rough, and other indices, get min(T, T') as if both
-/// directions were outside, and lose up to a tenth about the critical angle.
+/// stretched ones from 0.1, of anisotropy up to 0.9, 1e-3 for indices of both between 1.01 and 4,
+/// as without a coat; below a polished coat under another of index below 1.03, 3e-3. `phong_glass`
+/// that is rough, and other indices, get min(T, T') as if both directions were outside, and lose up
+/// to a tenth about the critical angle.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`:
@@ -229,10 +230,8 @@ inline R squared_of_each(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>&
   R squared = 1;
   if (above.part_of >= 0) {
     const CoatNumbers<R>& coat = coats.of[above.part_of].numbers;
-    const R eta = coat.eta[j];
-    const CoatShape<R> alone(lobe.broad(), coat.mean[j]), below = coat.of(j, lobe.broad());
-    const R rise = alone.rise(eta), varies = rise > 0 ? below.rise(eta) / rise : R(1);
-    squared = lobe.as_coat(eta, below.split(lobe.z, eta).reflected, varies);
+    squared = lobe.as_lower_coat(coat.eta[j], CoatShape<R>(lobe.broad(), coat.mean[j]),
+                                 coat.of(j, lobe.broad()));
   }
   for (int at = above.base; at >= 0;) {
     const CoatAbove<R>& one = coats.of[at];

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables of stretched facets as a coat and under one (materials/coated.h).
+#include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numbers>
 #include <numeric>
@@ -108,7 +110,7 @@ class Lobe {
 
   /// Over slopes as polar coordinates; a lattice, as in materials/tables/spread.h.
   std::vector<Facet> all_facets() const {
-    constexpr int kSlopes = 128, kAngles = 128;
+    constexpr int kSlopes = 192, kAngles = 192;
     std::vector<Facet> all;
     for (int k = 0; k < kAngles; ++k) {
       const double phi = 2 * kPi<double> * (k + 0.5) / kAngles;
@@ -195,8 +197,7 @@ struct Differences {
 
   explicit Differences(int shapes)
       : coat(axes::kStretchedCoatIndex * axes::kStretchedCoatDirection, Values(shapes)) {
-    for (auto& values : under)
-      values.resize(axes::kStretchedUnderIndex * axes::kStretchedCoatDirection, Values(shapes));
+    std::fill_n(under, kUnder, coat);
   }
 };
 
@@ -207,7 +208,7 @@ Differences differences(const ShapeFit& shapes, double root, const CoatedTables&
   for (int first = 0, end = 0; first < shapes.count(); first = end) {
     // All shapes of one ring are the same facets, along other directions.
     const double aspect = shapes.facets(first).wide, wide = root * aspect, narrow = root / aspect;
-    while (end < shapes.count() && shapes.facets(end).wide == aspect) ++end;
+    while (end < shapes.count() && std::abs(shapes.facets(end).wide - aspect) < 1e-6) ++end;
     const Lobe<Distribution<double>> lobe(wide, narrow);
     // `stretched` is of the index `eta`, `like(width, place)` what tables of round facets hold.
     const auto fill = [&](std::vector<Values>& to, int n, const Values& stretched,
@@ -231,10 +232,7 @@ Differences differences(const ShapeFit& shapes, double root, const CoatedTables&
            [&](const auto& width, double place) {
              return interpolate_coat(round.coat, width, eta, place);
            });
-    }
-    for (int n = 0; n < kStretchedUnderIndex; ++n)
       for (int b = 0; b < kUnder; ++b) {
-        const double eta = index_at(double(n) / (kStretchedUnderIndex - 1));
         const auto weights = lagrange<double>(kHeld, kStretchedHeld[b]);
         fill(all.under[b], n, below_coat(lobe, eta, kStretchedHeld[b]),
              [&](const auto& width, double place) {
@@ -242,6 +240,7 @@ Differences differences(const ShapeFit& shapes, double root, const CoatedTables&
                                        place);
              });
       }
+    }
   }
   return all;
 }
@@ -254,12 +253,9 @@ StretchedTables stretched_coats(const CoatedTables& round) {
   const ShapeFit shapes(kStretchedCoatDegree);
   const int steps = kStretchedCoatAlpha - 1, terms = shapes.terms();
   // As it is of mirrors: nothing.
-  const auto nothing = [&](int indices) {
-    return Grid({kStretchedCoatAlpha, indices, kStretchedCoatDirection, terms},
-                [](const double*) { return 0.0; });
-  };
-  std::vector<Grid> fitted(1, nothing(kStretchedCoatIndex));
-  fitted.resize(1 + kUnder, nothing(kStretchedUnderIndex));
+  const Grid nothing({kStretchedCoatAlpha, kStretchedCoatIndex, kStretchedCoatDirection, terms},
+                     [](const double*) { return 0.0; });
+  std::vector<Grid> fitted(1 + kUnder, nothing);
   parallel(steps, [&](int k) {
     const double place = (k + 1.0) / steps;
     const auto all = differences<Distribution>(shapes, place * place * place, round);
