@@ -41,9 +41,9 @@ inline constexpr int kCoatedMatte = 5, kSpread = 32;
 /// s of the coats that lobes lie below in the tables.
 inline constexpr double kHeld[] = {0, 0.2, 0.5, 0.8, 1}, kStretchedHeld[] = {0, 0.3, 0.7, 1};
 /// Of stretched facets; the axis of the width is that of an interface.
-inline constexpr int kStretchedCoatAlpha = 22, kStretchedCoatIndex = 20,
+inline constexpr int kStretchedCoatAlpha = 22, kStretchedCoatIndex = 23,
                      kStretchedCoatDirection = 28, kStretchedCoatDegree = 12;
-inline constexpr double kLeastCoatIndex = 0.1, kMostCoatIndex = 0.8801117;  ///< of 1.0002 and 4
+inline constexpr double kLeastCoatIndex = 0.1, kMostCoatIndex = 0.9844914;  ///< of 1.0002 and 32
 
 template <class R>
 inline R stretched_coat_index(R eta) {
@@ -141,7 +141,7 @@ struct FacetsAlong {
     const R sum = Basis(shape, kStretchedCoatDegree).sum(sums);
     // Above the axis few directions are let through.
     const auto mean_through = [](R index) { return 1 - fresnel_dielectric_diffuse(index); };
-    return eta > 4 ? sum * (mean_through(eta) / mean_through(R(4))) : sum;
+    return eta > 32 ? sum * (mean_through(eta) / mean_through(R(32))) : sum;
   }
 };
 

@@ -27,7 +27,7 @@
 /// and both mattes under any such coat within 1e-4 for indices from 1.005 to 4 and roughness from
 /// 0.05, beyond these 4e-4, and towards index 1 or 8 1e-3; stretched facets in it or under it 1e-4
 /// up to anisotropy 0.9 for indices from 1.02 to 4 and roughness from 0.2, in a coat of index 1.005
-/// 2e-4, of 1.001 1e-3, and above 4 2e-2.
+/// or 8 2e-4, of 1.001 1e-3, and above 8 1e-2.
 /// All other lobes get
 ///   base: min(T, T')
 /// which never gains, as it is below T. All of these are symmetric. A specular coat over a Lambert
