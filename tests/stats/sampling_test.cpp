@@ -28,6 +28,14 @@ bool asked(const Case& c) {
   return !only || c.name.starts_with(only);
 }
 
+/// Where the density of the hero jumps besides the horizon, as `ChiSquareTest::jumps`: phong_glass
+/// draws from both sides where both have a direction, and beyond the critical angle from one.
+std::vector<double> jumps(const Material& m) {
+  if (m.tree.nodes.back().lobe != int(Lobe::PhongGlass)) return {};
+  const double ior = m.numbers.front(), critical = std::asin(std::min(ior, 1 / ior));
+  return {std::sin((ior < 1 ? critical : kPi<double> - critical) / 2)};
+}
+
 /// Float samples of each case along each direction against the density in double. The level is of
 /// all together.
 void check_samples_follow(const std::vector<Case>& cases, std::span<const double> all_degrees,
@@ -61,6 +69,7 @@ void check_samples_follow(const std::vector<Case>& cases, std::span<const double
                [&](Vec3d wi) {
                  return exact.evaluate(wo_exact, wi, Mode::Radiance, choice_exact).pdf[0];
                },
+           .jumps = jumps(c.material),
            .seed = ++seed});
       worst = std::min(worst, r.p_value);
       CHECK_MESSAGE(r.passed(level), c.name, " at ", degrees, ": ", r.report());

@@ -49,3 +49,23 @@ TEST_CASE("the chi-square test tells right from wrong") {
   CHECK_FALSE(run(lossy, right).passed(1e-4));
   CHECK(run(lossy, [&](Vec3d w) { return 0.9 * right(w); }).passed(1e-4));
 }
+
+TEST_CASE("a density that jumps at a circle is integrated on both sides of it") {
+  // 9/10 of all directions evenly in the cap to t, where 4 pi t^2 is the solid angle.
+  const double t = 0.316, solid = 4 * kPi<double> * t * t;
+  const auto sample = [&](stats::Random& r) -> std::optional<Vec3d> {
+    const bool within = r.next() < 0.9;
+    const double u = r.next(), z = 1 - 2 * (within ? u * t * t : t * t + u * (1 - t * t));
+    const double s = std::sqrt(1 - z * z), phi = 2 * kPi<double> * r.next();
+    return Vec3d{s * std::cos(phi), s * std::sin(phi), z};
+  };
+  const auto pdf = [&](Vec3d w) {
+    return (1 - w.z) / 2 < t * t ? 0.9 / solid : 0.1 / (4 * kPi<double> - solid);
+  };
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto r = stats::chi_square(
+        {.sample = sample, .pdf = pdf, .jumps = {t}, .count = 50'000, .seed = seed});
+    CHECK(std::abs(r.mass - 1) < 1e-9);
+    CHECK(r.passed(stats::sidak(0.01, 20)));
+  }
+}
