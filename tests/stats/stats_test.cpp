@@ -66,6 +66,7 @@ TEST_CASE("a density that jumps at a circle is integrated on both sides of it") 
     const auto r = stats::chi_square(
         {.sample = sample, .pdf = pdf, .jumps = {t}, .count = 50'000, .seed = seed});
     CHECK(std::abs(r.mass - 1) < 1e-9);
+    CHECK(r.error < 1e-9);
     CHECK(r.passed(stats::sidak(0.01, 20)));
   }
 }

@@ -284,8 +284,8 @@ double half_mass(const Distribution& d, Vec3d pole, const std::vector<Vec3d>& dr
   double sum = 0;
   for (const Rectangle& cell : all)
     sum += stats::detail::integrate_cell(cell, 1e-4, 100'000, [&](double t, double phi) {
-      return 4 * t * d.pdf(stats::detail::from_polar(frame, t, phi));
-    });
+             return 4 * t * d.pdf(stats::detail::from_polar(frame, t, phi));
+           }).value;
   return sum;
 }
 
