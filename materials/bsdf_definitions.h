@@ -225,16 +225,23 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
       if constexpr (detail::kLambert<R, std::decay_t<decltype(model)>>) {
         if (coat.ior) choice.coats.of[coat.base].mean = mean_through_coats(i, choice);
       }
+      const auto solve = [&](const CoatedLobe<R>& lobe) {
+        if (!(part ? bool(coat.ior) : coat.upper >= 0)) return;
+        if (const auto coats = coats_above(choice.coats, coat, lobe.broad())) {
+          choice.under.solve(i, lobe.round(), *coats);
+          choice.solved.set(i);
+        }
+      };
       if constexpr (requires { model.coated(wo); }) {
         if (detail::is_specular(model)) return 0;
         const CoatedLobe<R> lobe = model.coated(wo);
-        if (part ? bool(coat.ior) : coat.upper >= 0)
-          if (const auto coats = coats_above(choice.coats, coat, lobe.broad())) {
-            choice.under.solve(i, lobe.round(), *coats);
-            choice.solved.set(i);
-          }
+        solve(lobe);
         choice.scaling.of[i] =
             coated_scaling(choice.coats, coat, choice.solution(i), lobe, coat.through_o);
+      } else if constexpr (requires { model.coated(wo, 0); }) {
+        if (detail::is_specular(model) || !coat.passed_once) return 0;
+        solve(model.coated(wo, 0));
+        choice.scaling.of[i] = bent_scaling(choice.coats, coat, choice.solution(i), model, wo);
       }
       return 0;
     });
@@ -390,20 +397,28 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
         if (detail::is_specular(model)) return 0;
         const Lobes<R> l = detail::evaluate<R>(model, wo, wi, mode, i, choice);
         total.pdf += l.pdf * choice.probability.of[i];
+        const NodeWeight<R>& w = weights.of[i];
+        const CoatAbove<R>& above = choice.coats.of[i];
+        const auto coated = [&](const Spectrum<R>& counted, const Spectrum<R>& g_i) {
+          return coated_weight(choice.coats, above, counted, w.other, choice.scaling.of[i], g_i);
+        };
         if constexpr (requires { model.coated(wo); }) {
-          const CoatAbove<R>& coat = choice.coats.of[i];
-          if (coat.part_of >= 0 || coat.ior) {
-            total.f += l.f * coated_weight(weights.of[i], choice.coats, coat, choice.solution(i),
-                                           model.coated(wi), choice.scaling.of[i]);
+          if (above.part_of >= 0 || above.ior) {
+            total.f += l.f * coated(w.bare, coated_scaling(choice.coats, above, choice.solution(i),
+                                                           model.coated(wi), w.through_i));
+            return 0;
+          }
+        } else if constexpr (requires { model.coated(wo, 0); }) {
+          if (above.passed_once && !same_side(wo, wi)) {
+            total.f += l.f * coated(w.crossing, bent_scaling(choice.coats, above,
+                                                             choice.solution(i), model, wi));
             return 0;
           }
         }
-        const CoatAbove<R>& above = choice.coats.of[i];
-        if (above.passed_once) {
-          total.f += l.f * glass_weight(weights.of[i], above, choice.glass.of[above.base], wo, wi);
-          return 0;
-        }
-        total.f += l.f * (detail::kLambert<R, Model> ? weights.of[i].lambert : weights.of[i].other);
+        if (above.passed_once)
+          total.f += l.f * glass_weight(w, above, choice.glass.of[above.base], wo, wi);
+        else
+          total.f += l.f * (detail::kLambert<R, Model> ? w.lambert : w.other);
       }
       return 0;
     });

@@ -18,7 +18,7 @@
 /// so that a white coat reflects E exactly. Of other lobes it is
 ///   coat: min(F, F')            and s is 0: E = F
 ///
-/// Where the index is above 1, facets, `glossy` and `rough_matte` right below the coat get
+/// Where the index is above 1, facets, all glossy lobes and `rough_matte` right below the coat get
 ///   base: g(wo) g(wi)           (materials/coated.h), whose mean over the lobe is T
 /// and Lambert's lobes, whatever the index,
 ///   base: T T' / mean T         whose integral over wi is exactly T (Kelemen and Szirmay-Kalos
@@ -49,8 +49,10 @@
 /// `film_dielectric`, `phong_glass`, `refraction`), round facets of roughness from 0.02 and
 /// stretched ones from 0.1, of anisotropy up to 0.9, 1e-3 for indices of both between 1.01 and 4,
 /// as without a coat; Beckmann's of anisotropy 0.9, seen from inside, 1.5e-3; below a polished coat
-/// under another of index below 1.03, 3e-3. Rough `phong_glass`, and other indices, get min(T, T')
-/// as if both directions were outside, and lose up to a tenth about the critical angle.
+/// under another of index below 1.03, 3e-3. Of `glossy_refraction`, of an index of at least 1, what
+/// changes sides gets g(wo) g(wi) of the directions outside, and what is sent back is the rest of T
+/// as a mirror: 1e-4. Rough `phong_glass`, and other indices, get min(T, T') as if both directions
+/// were outside, and lose up to a tenth about the critical angle.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`:
@@ -291,15 +293,33 @@ inline Spectrum<R> coated_scaling(const PerNode<CoatAbove<R>>& coats, const Coat
   return g;
 }
 
-/// The factor for such a lobe, from those of its node and g along wo.
+/// The same of `glossy_refraction`, whose lobe is outside in a direction for each index.
+template <class R, class Model>
+inline Spectrum<R> bent_scaling(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
+                                const UnderCoats<R>* under, const Model& model, Vec3<R> w) {
+  Spectrum<R> g, of_index;
+  for_each_index(model.numbers, [&](int j, bool repeated) {
+    if (!repeated) {
+      const CoatedLobe<R> lobe = model.coated(w, j);
+      Spectrum<R> through;
+      for (int k = 0; k < kWavelengths; ++k)
+        through[k] = split_together(coats, above, k, lobe.z).transmitted;
+      of_index = coated_scaling(coats, above, under, lobe, through);
+    }
+    g[j] = of_index[j];
+  });
+  return g;
+}
+
+/// The factor for such a lobe from `g` along both directions and those of its node: `counted` where
+/// the coats above count together, and `other`.
 template <class R>
-inline Spectrum<R> coated_weight(const NodeWeight<R>& w, const PerNode<CoatAbove<R>>& coats,
-                                 const CoatAbove<R>& above, const UnderCoats<R>* under,
-                                 const CoatedLobe<R>& lobe_i, const Spectrum<R>& g_o) {
-  const Spectrum<R> g_i = coated_scaling(coats, above, under, lobe_i, w.through_i);
+inline Spectrum<R> coated_weight(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
+                                 const Spectrum<R>& counted, const Spectrum<R>& other,
+                                 const Spectrum<R>& g_o, const Spectrum<R>& g_i) {
   Spectrum<R> f;
   for (int j = 0; j < kWavelengths; ++j)
-    f[j] = (counts_together(coats, above, j) ? w.bare[j] : w.other[j]) * (g_o[j] * g_i[j]);
+    f[j] = (counts_together(coats, above, j) ? counted[j] : other[j]) * (g_o[j] * g_i[j]);
   return f;
 }
 

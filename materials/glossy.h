@@ -146,9 +146,7 @@ struct GlossyLobe {
     return gloss > R(kMaxGloss) && (!kProduct || longitude > R(kMaxLongitude));
   }
   /// How a coat sees it: the longitude is of no matter to that.
-  CoatedLobe<R> coated(Vec3<R> w) const requires(kAngle != GlossyAngle::Through) {
-    return CoatedLobe<R>::glossy(gloss, w);
-  }
+  CoatedLobe<R> coated(Vec3<R> w) const { return CoatedLobe<R>::glossy(gloss, w); }
   Spectrum<R> estimate(Vec3<R>) const { return colour; }
   SpecularTerms<R> terms(Vec3<R>) const {
     SpecularTerms<R> t = mirror_terms(colour);

@@ -30,6 +30,22 @@ struct GlossyRefraction {
   explicit GlossyRefraction(const R* p) : numbers(p), lobe(p + kWavelengths) {}
 
   bool specular() const { return lobe.specular(); }
+  /// Whether it is known what coats let through, `Coats` being as in SentBack::smooth. They lie on
+  /// the side of the lower index then.
+  template <class Coats>
+  bool knows_coats(const Coats&) const {
+    return specular() || std::all_of(numbers, numbers + kWavelengths, [](R ior) {
+             return relative_eta(ior, Vec3<R>{0, 0, 1}) >= 1;
+           });
+  }
+  /// How coats see what passes at wavelength j: as the lobe of `glossy_through` that it is outside.
+  /// Of `w` beyond the critical angle, along the surface. \pre knows_coats
+  CoatedLobe<R> coated(Vec3<R> w, int j) const {
+    const R eta = relative_eta(numbers[j], w);
+    const Vec3<R> up = to_upper(w, w);
+    return lobe.coated(eta < 1 ? beyond(up.z, eta) ? Vec3<R>{} : refracted(up, eta) : up);
+  }
+
   Spectrum<R> estimate(Vec3<R>) const { return lobe.colour; }
   SpecularTerms<R> terms(Vec3<R> wo) const { return Refraction<R>(numbers).terms(wo); }
 

@@ -20,8 +20,9 @@ namespace mms::test {
 /// What the hemisphere of z > 0 or z < 0 gets of `wo`, without deltas, at wavelength `j`: over
 /// x = cos^2 and the azimuth from `wo`'s opposite, both from the direction (cos^2 = `peak`) where
 /// the lobe may be narrow, as eighth powers near it: `panels` Gauss rules of 8 points along each.
+/// Where models change across cos^2 = `edge`, each side of it is integrated alone.
 inline double hemisphere(const materials::Bsdf<double>& bsdf, Vec3d wo, bool upper, double peak,
-                         int panels) {
+                         int panels, double edge = 0) {
   const int n = 8 * panels;
   const auto choice = bsdf.choose(wo);
   const double start = std::atan2(-wo.y, -wo.x);
@@ -32,10 +33,17 @@ inline double hemisphere(const materials::Bsdf<double>& bsdf, Vec3d wo, bool upp
     offset[i] = 1 - far * far;
     weight[i] = 16 * far * std::pow(u, 7) * gauss<8>().w[i % 8] / panels;
   }
+  std::vector<std::array<double, 2>> parts;  // from, to
+  for (const auto& [a, b] : {std::array{0.0, edge}, std::array{edge, 1.0}})
+    if (a <= peak && peak <= b)
+      parts.insert(parts.end(), {{peak, a}, {peak, b}});
+    else
+      parts.push_back(b == edge ? std::array{b, a} : std::array{a, b});
   double sum = 0;
-  for (const double reach : {1 - peak, -peak})
-    for (int i = 0; i < n; ++i) {
-      const double x = peak + reach * offset[i], z = std::sqrt(x), r = std::sqrt(1 - x);
+  for (const auto& [from, to] : parts) {
+    const double reach = to - from;
+    for (int i = 0; reach != 0 && i < n; ++i) {
+      const double x = from + reach * offset[i], z = std::sqrt(x), r = std::sqrt(1 - x);
       double ring = 0;
       for (int k = 0; k < n; ++k)
         for (const double a : {kPi<double> * offset[k], -kPi<double> * offset[k]}) {
@@ -44,6 +52,7 @@ inline double hemisphere(const materials::Bsdf<double>& bsdf, Vec3d wo, bool upp
         }
       sum += std::abs(reach) * weight[i] * ring;
     }
+  }
   return sum * kPi<double> / 2;  // dx = 2 cos sin dtheta
 }
 
@@ -88,11 +97,14 @@ inline double brightest_through(const materials::Bsdf<double>& bsdf, Vec3d wo) {
 }
 
 /// cos^2 of the critical angle of `glossy_refraction` on the side of z > 0 or z < 0, where it ends;
-/// 0 of all other models, and on the side of the lower index.
+/// 0 without any, and on the side of the lower index.
 inline double end_of_lobe(const materials::Layout& layout, const double* p, bool upper) {
-  if (layout.nodes().back().lobe != Lobe::GlossyRefraction || upper == (p[0] > 1)) return 0;
-  const double n = std::max(p[0], 1 / p[0]);
-  return 1 - 1 / (n * n);
+  for (const auto& node : layout.nodes()) {
+    const double n = p[node.first_param];
+    if (node.lobe == Lobe::GlossyRefraction && upper != (n > 1))
+      return 1 - 1 / std::max(n * n, 1 / (n * n));
+  }
+  return 0;
 }
 
 /// All that becomes of light along `wo`: by so many panels that half of them say the same within
@@ -108,9 +120,9 @@ inline double two_sided(const Material& m, Vec3d wo, double tolerance) {
   for (const bool across : {false, true}) {
     if (!(across ? layout.transmits() : layout.reflects())) continue;
     const bool upper = across != (wo.z > 0);
-    const double end = end_of_lobe(layout, p.data(), upper);
-    const double peak = end > 0 ? end : across ? brightest_through(bsdf, wo) : wo.z * wo.z;
-    const auto side = [&](int panels) { return hemisphere(bsdf, wo, upper, peak, panels); };
+    const double edge = end_of_lobe(layout, p.data(), upper);
+    const double peak = across ? brightest_through(bsdf, wo) : wo.z * wo.z;
+    const auto side = [&](int panels) { return hemisphere(bsdf, wo, upper, peak, panels, edge); };
     double coarse = side(7), fine = side(14);
     for (int panels = 28; std::abs(fine - coarse) > tolerance; panels *= 2) {
       REQUIRE(panels <= 112);

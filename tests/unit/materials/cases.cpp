@@ -5,6 +5,12 @@
 
 namespace mms::test {
 
+namespace {
+
+Material facets(double roughness) { return microfacet(1, roughness); }
+
+}  // namespace
+
 Spectrum<double> ramp(double first, double last) {
   Spectrum<double> s;
   for (int j = 0; j < kWavelengths; ++j) s[j] = first + (last - first) * j / (kWavelengths - 1);
@@ -116,6 +122,18 @@ std::vector<Case> smooth_cases() {
            ramp(0.1, 1), 1.7));
   lossless("two coats over glass",
            coat(mirror(1), fresnel_mix(dielectric(1.5, 0.4), mirror(1), 1.3), 0, 0, 1.7));
+  lossless("coat over glossy_through",
+           coat(mirror(1), tinted(Lobe::GlossyThrough, 1, {15, 40}), 0, 0, ramp(1.4, 1.6)));
+  lossless("coat over glossy_refraction",
+           coat(mirror(1), glossy_refraction(1.5, {15, 100}), 0, 0, 1.5));
+  put("rough coat over a mixture with dispersive glossy_refraction",
+      coat(microfacet(ramp(0.9, 1), 0.5),
+           mix(glossy_refraction(ramp(1.45, 1.3), {8, 10}), dielectric(1.4, 0.3), ramp(0.2, 0.7)),
+           0.2, ramp(0.1, 1), 1.5));
+  lossless(
+      "two coats over glossy_refraction",
+      coat(facets(0.4), coat(mirror(1), glossy_refraction(ramp(1.45, 1.3), {8, 10}), 0, 0, 1.3), 0,
+           0, 1.7));
   return c;
 }
 
@@ -123,7 +141,6 @@ std::vector<Case> lossless_cases() {
   std::vector<Case> c = smooth_cases();
   std::erase_if(c, [](const Case& one) { return !one.lossless; });
   const auto put = [&](const char* name, Material m) { c.push_back({name, std::move(m), true}); };
-  const auto facets = [](double roughness) { return microfacet(1, roughness); };
   put("translucent, white", translucent(1));
   put("glossy, m = 1e4", glossy(1, 5000));
   put("glossy_product, white", tinted(Lobe::GlossyProduct, 1, {20, 60}));

@@ -266,6 +266,26 @@ TEST_CASE("what a nearly polished coat sends back into glass is nearly what a po
   }
 }
 
+TEST_CASE("glossy lobes that pass below coats are lossless within 1e-4, from both sides") {
+  Range range;
+  for (int k = 1; k <= (kSanitized ? 4 : 120); ++k) {
+    const double glass = between(1.001, 3.9, place(k, 0.8192)), degrees = angle(k, glass);
+    const double n = std::expm1(5 * place(k, 0.6710)), n_phi = std::expm1(3 * place(k, 0.3247));
+    const bool straight = k % 5 == 0;
+    const Material base = straight ? tinted(Lobe::GlossyThrough, 1, {n, n_phi})
+                                   : glossy_refraction(glass, {n, n_phi});
+    const Coat upper = Coat::any(k, k % 3 == 0, 0.5497), lower = Coat::any(k + 1, k % 2, 0.3117);
+    const Material m = upper.over(k % 4 < 2 ? base : lower.over(base));
+    const double a = two_sided(m, direction(degrees, 0.4), 1e-5);
+    const std::string at = (straight ? "straight on" : "index " + std::to_string(glass)) + ", n " +
+                           std::to_string(n) + " under " + std::to_string(upper.ior) + " at " +
+                           std::to_string(degrees);
+    range.add(a, at);
+    CHECK_MESSAGE(std::abs(a - 1) < 1e-4, at, ": ", a - 1);
+  }
+  MESSAGE("albedo - 1 from ", range.text());
+}
+
 TEST_CASE("a mixture of glass and matte under a rough coat is lossless") {
   for (const double share : {0.2, 0.7})
     for (double degrees : {0.0, 50.0, 85.0, 100.0, 130.0, 175.0}) {

@@ -68,7 +68,7 @@ class Nests {
   }
 
   Material base() {
-    const int kind = int(6 * random_.next());
+    const int kind = int(8 * random_.next());
     if (kind < 2) return reflecting();
     const double ior = random_.between(1.1, 2.1), r = random_.next();
     text += "base " + std::to_string(kind) + " of " + std::to_string(ior) + " " + std::to_string(r);
@@ -79,6 +79,10 @@ class Nests {
         return dielectric(ior);
       case 4:
         return dielectric(ior, 0.1 + 0.9 * r);
+      case 5:
+        return glossy_refraction(random_.next() < 0.2 ? 1 / ior : ior, {100 * r, 10 * r});
+      case 6:
+        return tinted(Lobe::GlossyThrough, 1, {100 * r, 10 * r});
       default:
         return mix(matte(1), dielectric(ior, r < 0.5 ? 0 : r), random_.next());
     }
