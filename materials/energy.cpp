@@ -4,12 +4,9 @@
 #include "materials/coated.h"
 
 namespace mms::materials {
-namespace {
 
 #include "coated_tables.inc"  // made by the build: materials/tables/coated.cpp
 #include "energy_tables.inc"  // made by the build: materials/tables/energy.cpp
-
-}  // namespace
 
 const FacetTables kGgxTables{kGgxLoss, kGgxMean, kGgxStretched, kGgxStretchedMean};
 const FacetTables kBeckmannTables{kBeckmannLoss, kBeckmannMean, kBeckmannStretched,

@@ -2,11 +2,8 @@
 #include "materials/glass_coat.h"
 
 namespace mms::materials {
-namespace {
 
 #include "glass_tables.inc"  // made by the build: materials/tables/glass.cpp
-
-}  // namespace
 
 const GlassTables kGgxGlass{{kGgxSteepOutside, kGgxSteepInside},
                             {kGgxRestOutside, kGgxRestInside},

@@ -13,7 +13,7 @@ namespace {
 /// `value(lobe, eta)` over all directions, for every lobe, by its number, and index. Returns the
 /// table.
 template <class Value>
-std::vector<float> write_lobes(std::FILE* to, const std::string& name, int count,
+std::vector<float> write_lobes(const TableFiles& to, const std::string& name, int count,
                                const Value& value) {
   using namespace axes;
   std::vector<Values> table(std::size_t(count) * kCoatIndex);
@@ -36,7 +36,7 @@ CoatShares shares(double eta, const Broadness<double>& broad) {
 
 /// CoatedTables::coat; `broad(place)` along the axis of widths.
 template <class Broad>
-std::vector<float> write_coat(std::FILE* to, const std::string& name,
+std::vector<float> write_coat(const TableFiles& to, const std::string& name,
                               const std::vector<Spread>& lobes, const Broad& broad) {
   const int count = int(lobes.size());
   return write_lobes(to, name + "CoatTable", count, [&](int k, double eta) {
@@ -45,7 +45,7 @@ std::vector<float> write_coat(std::FILE* to, const std::string& name,
 }
 
 /// CoatedTables::under.
-std::vector<std::vector<float>> write_under(std::FILE* to, const std::string& name,
+std::vector<std::vector<float>> write_under(const TableFiles& to, const std::string& name,
                                             const std::vector<Spread>& lobes) {
   std::vector<std::vector<float>> tables;
   for (const double s : axes::kHeld)
@@ -79,7 +79,7 @@ Values spread_columns(const Spread& lobe, double width) {
 
 /// All lobes of one kind as matrices; `width(place)` along the axis of widths.
 template <class Width>
-void write_spread(std::FILE* to, const std::string& name, const std::vector<Spread>& lobes,
+void write_spread(const TableFiles& to, const std::string& name, const std::vector<Spread>& lobes,
                   const Width& width) {
   const int count = int(lobes.size());
   constexpr int kNumbers = CoatedTables::kColumns * axes::kSpread;
@@ -103,7 +103,7 @@ std::vector<Spread> facet_lobes() {
 
 /// As a coat and under one.
 template <template <class> class Distribution>
-void write_facets(std::FILE* to, const std::string& name, const std::vector<Spread>& lobes) {
+void write_facets(const TableFiles& to, const std::string& name, const std::vector<Spread>& lobes) {
   const auto coat = write_coat(
       to, name, lobes, [](double place) { return Broadness<double>::facets(alpha_at(place)); });
   const auto under = write_under(to, name, lobes);
@@ -111,9 +111,9 @@ void write_facets(std::FILE* to, const std::string& name, const std::vector<Spre
   round.coat = coat.data();
   for (std::size_t k = 0; k < under.size(); ++k) round.under[k] = under[k].data();
   const StretchedTables stretched = stretched_coats<Distribution>(round);
-  write_numbers(to, name + "StretchedCoatTable", stretched.coat, 4);
+  write_numbers(to, name + "StretchedCoatTable", stretched.coat);
   for (std::size_t k = 0; k < stretched.under.size(); ++k)
-    write_numbers(to, name + "StretchedUnderTable" + std::to_string(k), stretched.under[k], 4);
+    write_numbers(to, name + "StretchedUnderTable" + std::to_string(k), stretched.under[k]);
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ void write_facets(std::FILE* to, const std::string& name, const std::vector<Spre
 int main(int argc, char** argv) {
   using namespace mms::materials;
   using namespace mms::materials::tables;
-  return make_tables(argc, argv, [](std::FILE* to) {
+  return make_tables(argc, argv, [](const TableFiles& to) {
     using namespace axes;
     const auto ggx = facet_lobes<Ggx>(), beckmann = facet_lobes<Beckmann>();
     const auto glossy = lobes(kGloss, [](double x) { return glossy_lobe(gloss_at(x)); });

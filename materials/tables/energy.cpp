@@ -13,7 +13,7 @@ namespace mms::materials::tables {
 namespace {
 
 /// Writes the table and returns it.
-std::vector<float> write(std::FILE* to, const std::string& name, const Grid& grid) {
+std::vector<float> write(const TableFiles& to, const std::string& name, const Grid& grid) {
   const std::vector<double> spline = grid.spline();
   const std::vector<float> table(spline.begin(), spline.end());
   write_numbers(to, name, table);
@@ -71,7 +71,7 @@ struct RoundInterface {
 
 /// The tables hold the root of the loss: it falls less steeply, and float keeps more of its digits.
 template <template <class> class Distribution>
-RoundInterface write_round_interface(std::FILE* to, const std::string& name, bool rising,
+RoundInterface write_round_interface(const TableFiles& to, const std::string& name, bool rising,
                                      RoundInterface round) {
   using namespace axes;
   round.loss = write(
@@ -143,12 +143,12 @@ std::vector<float> stretched_difference(bool rising, const InterfaceTables& roun
 
 /// That, and its mean.
 template <template <class> class Distribution>
-void write_stretched_interface(std::FILE* to, const std::string& name, bool rising,
+void write_stretched_interface(const TableFiles& to, const std::string& name, bool rising,
                                const RoundInterface& round) {
   using namespace axes;
   InterfaceTables tables = round.tables();
   const auto difference = stretched_difference<Distribution>(rising, tables);
-  write_numbers(to, name + "Stretched", difference, 4);
+  write_numbers(to, name + "Stretched", difference);
   tables.stretched[!rising] = difference.data();
   write(to, name + "StretchedMean",
         Grid({kBentMeanAlpha, kBentMeanAspect, kBentMeanIndex}, [&](const double* x) {
@@ -164,7 +164,7 @@ void write_stretched_interface(std::FILE* to, const std::string& name, bool risi
 }
 
 template <template <class> class Distribution>
-void write_interface(std::FILE* to, const std::string& name, const RoundInterface& known) {
+void write_interface(const TableFiles& to, const std::string& name, const RoundInterface& known) {
   for (const bool rising : {true, false}) {
     const std::string side = name + (rising ? "Dense" : "Rare");
     write_stretched_interface<Distribution>(
@@ -173,7 +173,7 @@ void write_interface(std::FILE* to, const std::string& name, const RoundInterfac
 }
 
 template <template <class> class Distribution>
-void write_facets(std::FILE* to, const std::string& name) {
+void write_facets(const TableFiles& to, const std::string& name) {
   using namespace axes;
   const std::vector<float> round = round_losses<Distribution>();
   write_numbers(to, name + "Loss", round);
@@ -209,7 +209,7 @@ void write_facets(std::FILE* to, const std::string& name) {
 
 int main(int argc, char** argv) {
   using namespace mms::materials;
-  return tables::make_tables(argc, argv, [](std::FILE* to) {
+  return tables::make_tables(argc, argv, [](const tables::TableFiles& to) {
     tables::write_facets<Ggx>(to, "kGgx");
     tables::write_facets<Beckmann>(to, "kBeckmann");
     tables::write_interface<Ggx>(to, "kGgx", {kGgxLeastMean, kGgxKink, kGgxBent});

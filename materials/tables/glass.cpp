@@ -15,12 +15,8 @@
 #include "materials/tables/slopes.h"
 
 namespace mms::materials {
-namespace {
 
-#pragma GCC diagnostic ignored "-Wunused"
 #include "energy_tables.inc"  // made by the build: materials/tables/energy.cpp
-
-}  // namespace
 
 namespace tables {
 namespace {
@@ -230,7 +226,7 @@ Bent bent_side(const GlassTables& round) {
 }
 
 template <bool Inside, template <class> class Distribution>
-void write_side(std::FILE* to, const std::string& name) {
+void write_side(const TableFiles& to, const std::string& name) {
   using namespace axes;
   constexpr int widths = kGlassAlpha, indices = kGlassIndex, directions = kGlassDirection[Inside],
                 coats = kGlassCoat[Inside];
@@ -255,19 +251,19 @@ void write_side(std::FILE* to, const std::string& name) {
       for (int m = 0; m < kRest; ++m) rest.values[at * kRest + m] = sent.rest(m);
     }
   });
-  const auto write = [&](const std::string& part, const std::vector<double>& spline, int digits) {
+  const auto write = [&](const std::string& part, const std::vector<double>& spline) {
     std::vector<float> numbers(spline.begin(), spline.end());
-    write_numbers(to, name + part + side, numbers, digits);
+    write_numbers(to, name + part + side, numbers);
     return numbers;
   };
-  const auto round_steep = write("Steep", steep.spline(), 6);
-  const auto round_rest = write("Rest", rest.spline(1), 6);
+  const auto round_steep = write("Steep", steep.spline());
+  const auto round_rest = write("Rest", rest.spline(1));
   GlassTables tables{};
   tables.steep[Inside] = round_steep.data();
   tables.rest[Inside] = round_rest.data();
   const Bent bent = bent_side<Inside, Distribution>(tables);
-  write_numbers(to, name + "BentSteep" + side, bent.steep, 4);
-  write_numbers(to, name + "BentRest" + side, bent.rest, 4);
+  write_numbers(to, name + "BentSteep" + side, bent.steep);
+  write_numbers(to, name + "BentRest" + side, bent.rest);
 }
 
 }  // namespace
@@ -276,7 +272,7 @@ void write_side(std::FILE* to, const std::string& name) {
 
 int main(int argc, char** argv) {
   using namespace mms::materials;
-  return tables::make_tables(argc, argv, [](std::FILE* to) {
+  return tables::make_tables(argc, argv, [](const tables::TableFiles& to) {
     tables::write_side<false, Ggx>(to, "kGgx");
     tables::write_side<true, Ggx>(to, "kGgx");
     tables::write_side<false, Beckmann>(to, "kBeckmann");

@@ -2,12 +2,13 @@
 #pragma once
 
 /// \file
-/// What the programs that make tables share: all cores, splines over grids, numbers as C++. Nothing
-/// here is used when rendering.
+/// What the programs that make tables share: all cores, splines over grids, files of numbers.
+/// Nothing here is used when rendering.
 
 #include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <thread>
@@ -112,28 +113,56 @@ struct Grid {
   }
 };
 
-/// Writes `const float name[]`, with `digits` behind the point of the first.
-inline void write_numbers(std::FILE* to, const std::string& name, const std::vector<float>& table,
-                          int digits = 8) {
-  std::fprintf(to, "const float %s[] = {", name.c_str());
-  for (std::size_t i = 0; i < table.size(); ++i)
-    std::fprintf(to, "%s%.*e,", i % 8 ? "" : "\n", digits, double(table[i]));
-  std::fprintf(to, "\n};\n");
+/// Where tables go: what declares them, and a file beside it that has their numbers and that the
+/// assembler puts in place. A compiler takes minutes for as many as text.
+struct TableFiles {
+  std::FILE *declarations, *numbers;
+  std::string numbers_name;
+};
+
+/// `const float name[]`.
+inline void write_numbers(const TableFiles& to, const std::string& name,
+                          const std::vector<float>& table) {
+  std::fprintf(to.declarations,
+               "asm(\".pushsection .rodata\\n.balign 4\\n\"\n"
+               "    \"mms_%s: .incbin \\\"%s\\\", %ld, %zu\\n.popsection\");\n"
+               "extern const float %s[%zu] asm(\"mms_%s\");\n",
+               name.c_str(), to.numbers_name.c_str(), std::ftell(to.numbers),
+               table.size() * sizeof(float), name.c_str(), table.size(), name.c_str());
+  std::fwrite(table.data(), sizeof(float), table.size(), to.numbers);
 }
 
-/// The `main` of such a program: `write` fills the file that its only argument names.
-inline int make_tables(int argc, char** argv, const std::function<void(std::FILE*)>& write) {
+/// Fills the file at `path` by `write`; whether nothing went wrong, which it says otherwise.
+inline bool write_file(const std::string& path, const std::function<bool(std::FILE*)>& write) {
+  std::FILE* to = std::fopen(path.c_str(), "wb");
+  if (to) {
+    const bool written = write(to), failed = std::ferror(to);
+    if (std::fclose(to) == 0 && !failed) return written;
+  }
+  std::perror(path.c_str());
+  return false;
+}
+
+/// The `main` of a program whose only argument names the file that `make` makes.
+inline int with_path(int argc, char** argv, const std::function<bool(const std::string&)>& make) {
   if (argc != 2) {
     std::fprintf(stderr, "usage: %s FILE\n", argv[0]);
     return 2;
   }
-  std::FILE* to = std::fopen(argv[1], "w");
-  if (to) {
-    write(to);
-    if (std::fclose(to) == 0) return 0;
-  }
-  std::perror(argv[1]);
-  return 1;
+  return make(argv[1]) ? 0 : 1;
+}
+
+/// The same where that file is to declare tables; the numbers go to one of the extension .bin.
+inline int make_tables(int argc, char** argv, const std::function<void(const TableFiles&)>& write) {
+  return with_path(argc, argv, [&](const std::string& path) {
+    const auto numbers = std::filesystem::path(path).replace_extension(".bin");
+    return write_file(path, [&](std::FILE* declarations) {
+      return write_file(numbers.string(), [&](std::FILE* to) {
+        write({declarations, to, numbers.filename().string()});
+        return true;
+      });
+    });
+  });
 }
 
 }  // namespace mms::materials::tables

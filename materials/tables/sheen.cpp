@@ -54,7 +54,15 @@ std::vector<Node> all_nodes() {
   return nodes;
 }
 
-void write_sheen(std::FILE* to) {
+/// `const float name[]` as text.
+void write_text(std::FILE* to, const char* name, const std::vector<float>& table) {
+  std::fprintf(to, "const float %s[] = {", name);
+  for (std::size_t i = 0; i < table.size(); ++i)
+    std::fprintf(to, "%s%.8e,", i % 8 ? "" : "\n", double(table[i]));
+  std::fprintf(to, "\n};\n");
+}
+
+bool write_sheen(std::FILE* to) {
   using namespace axes;
   const std::vector<Node> nodes = all_nodes();
   std::vector<float> table;
@@ -69,7 +77,7 @@ void write_sheen(std::FILE* to) {
   std::fprintf(to,
                "// SPDX-License-Identifier: Apache-2.0\n"
                "// Made by materials/tables/sheen.cpp; change that, not this.\n");
-  write_numbers(to, "kSheenTable", table);
+  write_text(to, "kSheenTable", table);
   // A mean of splines over the same roughnesses: exactly that of what is read from them.
   constexpr int rows = coefficients(kSheenRoughness), columns = coefficients(kSheenDirection);
   std::vector<float> mean;
@@ -80,7 +88,8 @@ void write_sheen(std::FILE* to) {
           return 4 * x * x * x * interpolate(table.data() + row * columns, d);
         },
         0, 1, 1e-9)));
-  write_numbers(to, "kSheenMean", mean);
+  write_text(to, "kSheenMean", mean);
+  return true;
 }
 
 }  // namespace
@@ -88,5 +97,6 @@ void write_sheen(std::FILE* to) {
 
 int main(int argc, char** argv) {
   using namespace mms::materials::tables;
-  return make_tables(argc, argv, write_sheen);
+  return with_path(argc, argv,
+                   [](const std::string& path) { return write_file(path, write_sheen); });
 }
