@@ -73,7 +73,7 @@ Vec3<float> any_direction(stats::Random& random, Vec3<float> other) {
 /// What a combiner is given; `layered`: what a layer has on top.
 Material any_child(bool layered, stats::Random& random) {
   const double x = random.next(), y = 2 * random.next() - 1, gloss = std::pow(10, 6 * x - 1);
-  switch (int(random.next() * (layered ? 13 : 11))) {
+  switch (int(random.next() * (layered ? 16 : 14))) {
     case 0:
       return mirror(1);
     case 1:
@@ -99,6 +99,12 @@ Material any_child(bool layered, stats::Random& random) {
     case 10:
       return coat(mirror(1), beckmann_dielectric(1 + std::abs(any_number(random)), x), 0.1, 1,
                   1 + std::abs(any_number(random)));
+    case 11:
+      return glossy_refraction(any_number(random), {gloss, std::abs(y) * gloss});
+    case 12:
+      return tinted(Lobe::GlossyThrough, 1, {gloss, std::abs(y) * gloss});
+    case 13:
+      return phong_glass(any_number(random), gloss);
     default:
       return tinted(Lobe::Sheen, 1, {any_number(random)});
   }
