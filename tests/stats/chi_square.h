@@ -8,8 +8,8 @@
 /// 4 t dt dphi. The equator, where densities of surfaces jump, and other circles around the axis
 /// where this one does are edges of cells; each band between two is split at the medians of a pilot
 /// run, so narrow lobes are resolved as well as wide ones, and the pilot is not used again. What is
-/// not drawn (no sample, or a delta) is one more cell, which expects 1 - the integral of the
-/// density, or what is nearer to what it has, but for what quadrature errs by.
+/// not drawn (no sample, or a delta) is one more cell. It expects 1 - the integral of the density,
+/// give or take what quadrature errs by, to the advantage of what was seen.
 
 #include <algorithm>
 #include <cmath>
