@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Renders that take long: split, stopped, killed, out of disk. Nothing is lost and nothing differs.
 #include <csignal>
-#include <cstdlib>
 #include <random>
 #include <regex>
 #include <string>
@@ -11,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/command.h"
+#include "tests/setting.h"
 
 using mms::cli::contains;
 using mms::cli::Folder;
@@ -44,11 +44,6 @@ std::vector<int> samples_shown(const std::string& terminal) {
   for (std::sregex_iterator it(terminal.begin(), terminal.end(), line), end; it != end; ++it)
     all.push_back(std::stoi((*it)[1]));
   return all;
-}
-
-int kills() {
-  const char* text = std::getenv("MMS_KILLS");
-  return text ? std::atoi(text) : 3;
 }
 #endif
 
@@ -219,7 +214,7 @@ TEST_CASE(
   const std::string render = "render s.mms --size 16x16 --threads 2 --samples ";
   std::mt19937 random(7);
   int before = 0;
-  for (int i = 0; i < kills(); ++i) {
+  for (int i = 0, kills = int(mms::setting("MMS_KILLS", 3)); i < kills; ++i) {
     CAPTURE(i);
     // Progress is shown ten times a second, each time with a checkpoint behind it.
     const Outcome run =

@@ -7,12 +7,11 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdlib>
-
 #include "generator.h"
 #include "materials/spectra.h"
 #include "tests/golden/evaluate.h"
 #include "tests/sanitized.h"
+#include "tests/setting.h"
 #include "tests/unit/stdlib/rows.h"
 
 namespace mms::property {
@@ -20,11 +19,6 @@ namespace {
 
 using namespace golden;
 using vm::Interval;
-
-int from_environment(const char* name, int otherwise) {
-  const char* text = std::getenv(name);
-  return text ? std::max(1, std::atoi(text)) : otherwise;
-}
 
 class Boxes {
  public:
@@ -137,7 +131,7 @@ std::vector<vm::SlotType> types_of(const std::string& letters) {
 }
 
 TEST_CASE("bounds: every row encloses both kernels over random and edge boxes") {
-  const int points = from_environment("MMS_BOUNDS_POINTS", kSanitized ? 2048 : 16384);
+  const int points = int(setting("MMS_BOUNDS_POINTS", kSanitized ? 2048 : 16384));
   Boxes random(7);
   for (const vm::Builtin& row : stdlib::builtins()) {
     if (!row.f32) continue;
@@ -248,7 +242,7 @@ int check_program(const vm::Program& program, const vm::Executable& executable, 
 }
 
 TEST_CASE("bounds: random programs stay in their enclosures") {
-  const int programs = from_environment("MMS_PROPERTY_PROGRAMS", kSanitized ? 40 : 300);
+  const int programs = int(setting("MMS_PROPERTY_PROGRAMS", kSanitized ? 40 : 300));
   Boxes random(3);
   long compared = 0, bounded = 0, sources = 0;
   for (int seed = 1; seed <= programs; ++seed) {

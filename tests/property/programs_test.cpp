@@ -8,7 +8,6 @@
 // seed is the first (default 1).
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <map>
 #include <memory>
 
@@ -17,16 +16,12 @@
 #include "tests/property/bounded_machine.h"
 #include "tests/property/generator.h"
 #include "tests/sanitized.h"
+#include "tests/setting.h"
 
 namespace mms::property {
 namespace {
 
 using namespace golden;
-
-int setting(const char* name, int otherwise) {
-  const char* text = std::getenv(name);
-  return text ? std::max(1, std::atoi(text)) : otherwise;
-}
 
 /// What has been compared, over all programs.
 struct Tally {
@@ -299,8 +294,8 @@ class Comparison {
 };
 
 TEST_CASE("random programs: all ways to run one agree, and the double machine is near") {
-  const int first = setting("MMS_PROPERTY_FIRST", 1),
-            count = setting("MMS_PROPERTY_PROGRAMS", kSanitized ? 40 : 1200);
+  const int first = int(setting("MMS_PROPERTY_FIRST", 1)),
+            count = int(setting("MMS_PROPERTY_PROGRAMS", kSanitized ? 40 : 1200));
   Tally tally;
   Machines<float> m32;
   Machines<double> m64;

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -24,16 +23,14 @@
 #include "base/quadrature.h"
 #include "base/vec.h"
 #include "tests/sanitized.h"
+#include "tests/setting.h"
 #include "tests/stats/distributions.h"
 #include "tests/stats/random.h"
 
 namespace mms::stats {
 
-/// `usual`, or what MMS_STATS_SAMPLES says: `./run nightly` draws 10^6.
-inline int sample_count(int usual) {
-  const char* samples = std::getenv("MMS_STATS_SAMPLES");
-  return samples ? std::atoi(samples) : usual;
-}
+/// `usual`, or as many as `./run nightly` draws: 10^6.
+inline int sample_count(int usual) { return int(setting("MMS_STATS_SAMPLES", usual)); }
 
 struct ChiSquareTest {
   /// A direction, or nothing.

@@ -15,6 +15,7 @@
 
 #include "materials/emission.h"
 #include "tests/sanitized.h"
+#include "tests/setting.h"
 #include "tests/stats/chi_square.h"
 #include "tests/unit/materials/cases.h"
 
@@ -157,11 +158,8 @@ struct Counts {
   bool good() const { return nan + infinite + negative == 0; }
 };
 
-/// How many calls of each model: `MMS_EXTREME_CALLS`, or few.
-long long wanted_calls() {
-  const char* wanted = std::getenv("MMS_EXTREME_CALLS");
-  return wanted ? std::atoll(wanted) : kSanitized ? 1'000 : 30'000;
-}
+/// How many calls of each model.
+long long wanted_calls() { return setting("MMS_EXTREME_CALLS", kSanitized ? 1'000 : 30'000); }
 
 /// All but what MMS_STATS_MODEL names, by the start of it.
 bool left_out(int lobe) {

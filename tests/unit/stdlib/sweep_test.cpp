@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 #include <cstdio>
-#include <cstdlib>
 
 #include "tests/sanitized.h"
+#include "tests/setting.h"
 #include "tests/unit/stdlib/ulp.h"
 
 namespace mms::stdlib::testing {
@@ -46,11 +46,8 @@ const Binary kBinary[] = {
     {"real fmod(real a, b)", std::fmod, fmodl},
 };
 
-/// From MMS_SWEEP; 0 where it is not set.
-std::uint64_t sweep_step() {
-  const char* text = std::getenv("MMS_SWEEP");
-  return text ? std::max(1, std::atoi(text)) : 0;
-}
+/// 0 where it is not set.
+std::uint64_t sweep_step() { return std::uint64_t(setting("MMS_SWEEP", 0)); }
 
 /// `ulp_error` against a double; quick, for the screen.
 double screened_error(float got, double exact) {
