@@ -14,6 +14,8 @@ namespace mms::api {
 
 /// Megabytes of decoded tiles that images may take together.
 inline constexpr double kImageMegabytes = 1024;
+/// A petabyte: more is a mistake.
+inline constexpr double kMostImageMegabytes = 1 << 30;
 
 /// An entry of the module `mms_images`, which reads and writes images through OpenImageIO; null
 /// where there is no such module. Once loaded it stays: what comes from it lives as long as

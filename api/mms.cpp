@@ -159,9 +159,11 @@ int mmsAddGraph(MMsProgram* program, const MMsGraph* graph) {
 int mmsSetImages(MMsProgram* program, double megabytes, int missing_is_magenta) {
   if (!program) return 0;
   return api::guarded(program->messages, [&] {
-    if (!(megabytes >= 1)) {
+    if (!(megabytes >= 1 && megabytes <= api::kMostImageMegabytes)) {
       program->messages.add(
-          {"mmsSetImages", fmt::format("{} megabytes are too few", megabytes), "give 1 or more"});
+          {"mmsSetImages",
+           fmt::format("{} is not a number from 1 to {}", megabytes, api::kMostImageMegabytes),
+           "give megabytes, as 4096"});
       return false;
     }
     program->images = api::ImageLibrary(megabytes);

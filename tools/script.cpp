@@ -176,14 +176,13 @@ bool only_settings(const lang::Diagnostics& diagnostics) {
 
 /// What opens the images of scripts; the error is one of the option.
 Result<std::unique_ptr<vm::ImageSource>> image_library(const ScriptOptions& options) {
-  constexpr double kMostMegabytes = 1 << 30;  // a petabyte: more is a mistake
   double megabytes = api::kImageMegabytes;
   if (const std::string& text = options.image_memory; !text.empty()) {
     const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), megabytes);
     if (wrong != std::errc() || end != text.data() + text.size() ||
-        !(megabytes >= 1 && megabytes <= kMostMegabytes))
+        !(megabytes >= 1 && megabytes <= api::kMostImageMegabytes))
       return Error{"--image-memory",
-                   fmt::format("`{}` is not a number from 1 to {}", text, kMostMegabytes),
+                   fmt::format("`{}` is not a number from 1 to {}", text, api::kMostImageMegabytes),
                    "megabytes, as in --image-memory 4096"};
   }
   return std::unique_ptr<vm::ImageSource>(std::make_unique<api::ImageLibrary>(megabytes));

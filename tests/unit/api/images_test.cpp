@@ -2,6 +2,7 @@
 // Images through mms.h.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -52,6 +53,7 @@ TEST_CASE("images: what is missing fails the link or is magenta, as the host say
   CHECK(std::string(mmsGetProgramLog(*p.program)).find("the image `none.png` does not exist") !=
         std::string::npos);
   CHECK(!mmsSetImages(p.program, 0, 1));
+  CHECK(!mmsSetImages(p.program, HUGE_VAL, 1));
   CHECK(!mmsSetImages(nullptr, 64, 1));
   REQUIRE(mmsSetImages(p.program, 64, 1));
   REQUIRE(mmsLinkProgram(*p.program, mms::O2));
