@@ -141,8 +141,12 @@ template <class R>
 struct Interpreter<R>::State {
   /// The constants of one executable, each in all lanes of a block.
   struct Constants {
-    std::shared_ptr<const char> identity;
+    std::weak_ptr<const char> identity;  ///< lest interpreters keep what others have seen
     Memory blocks;
+
+    bool are_of(const LoweredCode& code) const {
+      return !identity.owner_before(code.identity) && !code.identity.owner_before(identity);
+    }
   };
 
   int width;
@@ -170,8 +174,8 @@ struct Interpreter<R>::State {
 template <class R>
 std::byte* Interpreter<R>::State::prepare(const LoweredCode& code) {
   for (const Constants& c : constants)
-    if (c.identity == code.identity) return c.blocks.data();
-  std::erase_if(constants, [](const Constants& c) { return c.identity.use_count() == 1; });
+    if (c.are_of(code)) return c.blocks.data();
+  std::erase_if(constants, [](const Constants& c) { return c.identity.expired(); });
   in.resize(std::max<std::size_t>(in.size(), code.builtin_blocks));
   out.resize(std::max<std::size_t>(out.size(), code.builtin_blocks));
   Memory blocks(code.constants.size() * width * sizeof(R));

@@ -2,6 +2,7 @@
 // Arms, loops, calls and faults, in programs written by hand. Expected values are closed forms or
 // plain C++, and every program is compared with the reference too.
 #include "harness.h"
+#include "vm/lower.h"
 
 namespace mms::vm::test {
 namespace {
@@ -302,6 +303,20 @@ TEST_CASE("an interpreter tells executables apart, and one may follow another") 
     const Executable exe(p);  // often where the last one was
     CHECK(run(machine, exe, p, 0, counting<float>(4))[3].results[0].r[0] == 1 + k % 2);
   }
+}
+
+TEST_CASE("interpreters keep nothing of an executable that is gone, though several have run it") {
+  Assembler a;
+  a.function("f", {}, {R}).real(1).ret();
+  Interpreter<float> one(4), other(4);
+  std::weak_ptr<const char> identity;
+  {
+    const Executable exe(a.program);
+    identity = exe.code().identity;
+    for (Interpreter<float>* machine : {&one, &other})
+      run(*machine, exe, a.program, 0, counting<float>(4));
+  }
+  CHECK(identity.expired());
 }
 
 TEST_CASE("the width fits the working set to the cache") {
