@@ -12,8 +12,9 @@ namespace mms {
 
 /// What went wrong, where, and one thing to try. Lower case, no full stop.
 struct Error {
-  /// In what was read; a name that nothing has; a file that is not there or cannot be read.
-  enum class Cause { Content, Name, File };
+  /// In what was read; a name that nothing has; a file that is not there or cannot be read; a
+  /// script that does not end.
+  enum class Cause { Content, Name, File, Budget };
 
   std::string where;  ///< file, file:line:column, or option; may be empty
   std::string what;

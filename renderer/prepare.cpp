@@ -288,7 +288,7 @@ class Probe {
     const auto& [where, lanes] = *scripts_.faults().begin();
     return {place(compiled_.program(), where.source, where.line),
             "the script does not come to an end: " + cause_text(where.cause),
-            "check that every recursion reaches its end"};
+            "check that every recursion reaches its end", Error::Cause::Budget};
   }
 
   const SceneData& scene_;

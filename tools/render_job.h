@@ -38,6 +38,9 @@ std::vector<std::string> files_of_scene(const std::string& scene);
 /// The files that a picture of `script` is made from, as far as they are named.
 std::vector<std::string> inputs_of(const RenderRequest& request, const RenderScript& script);
 
+/// Of a scene that did not load, or of which no picture can be made.
+Exit exit_of(const Error& error);
+
 /// Loads the scene, or a turn of it; empty after saying what is wrong.
 std::optional<RenderJob> set_scene(const RenderRequest& request, const RenderScript& script,
                                    Exit& exit);

@@ -50,19 +50,6 @@ std::string choose_surface(const RenderRequest& request, const std::string& file
   return names[0];
 }
 
-/// Of a scene that did not load.
-Exit scene_exit(Error::Cause cause) {
-  switch (cause) {
-    case Error::Cause::File:
-      return Exit::File;
-    case Error::Cause::Name:
-      return Exit::Usage;
-    case Error::Cause::Content:
-      break;
-  }
-  return Exit::Script;
-}
-
 /// A number for what a file holds; 0 where it cannot be read.
 std::uint64_t content_hash(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -222,13 +209,27 @@ std::vector<std::string> inputs_of(const RenderRequest& request, const RenderScr
   return all;
 }
 
+Exit exit_of(const Error& error) {
+  switch (error.cause) {
+    case Error::Cause::File:
+      return Exit::File;
+    case Error::Cause::Name:
+      return Exit::Usage;
+    case Error::Cause::Budget:
+      return Exit::Budget;
+    case Error::Cause::Content:
+      break;
+  }
+  return Exit::Script;
+}
+
 std::optional<RenderJob> set_scene(const RenderRequest& request, const RenderScript& script,
                                    Exit& exit) {
   const renderer::SceneSource source{request.scene, script.surface, request.volume, request.turn,
                                      request.environment};
   auto scene = renderer::load_scene(script.linked->program, source);
   if (!scene) {
-    exit = fail(scene_exit(scene.error().cause), scene.error(), request);
+    exit = fail(exit_of(scene.error()), scene.error(), request);
     return {};
   }
   const bool tested = !scene->surface().empty() || !scene->volume().empty();

@@ -190,7 +190,7 @@ Exit render_one(const RenderRequest& request, const RenderScript& script, const 
     if (progress) options.progress = [&line](const renderer::Progress& p) { line.show(p); };
     return renderer::render(job->linked->program, job->scene, options);
   }();
-  if (!rendered) return fail(Exit::Budget, rendered.error(), request);
+  if (!rendered) return fail(exit_of(rendered.error()), rendered.error(), request);
   const auto written = write_result(request, path, checkpoint, key, *rendered);
   if (!written) return fail(Exit::File, written.error(), request);
   print_report(request, script, file, path, rendered->report);

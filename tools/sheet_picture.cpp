@@ -166,7 +166,7 @@ Exit render_tile(const Variant& v, const std::string& path, renderer::SheetTile&
   if (const auto error = overwrites(path, inputs_of(v.request, *job)))
     return fail(Exit::Usage, *error, v.request);
   const auto r = renderer::render(job->linked->program, job->scene, render_options(v.request));
-  if (!r) return fail(Exit::Budget, r.error(), v.request);
+  if (!r) return fail(exit_of(r.error()), r.error(), v.request);
   auto pixels = renderer::display_pixels(r->film, view_of(v.request));
   if (!pixels) return fail(Exit::File, pixels.error(), v.request);
   tile.pixels = std::move(*pixels);

@@ -121,7 +121,7 @@ class Version {
     options_.layers = path_.ends_with(".exr");
     const auto r = renderer::render(job_.linked->program, job_.scene, options_);
     if (!r) {
-      fail(Exit::Budget, r.error(), request_);
+      fail(exit_of(r.error()), r.error(), request_);
       return;
     }
     if (r->report.stopped && !interrupted()) return;  // another version is there
@@ -140,7 +140,7 @@ class Version {
     coarse.filter = renderer::FilterShape::Box;
     const auto r = renderer::render(job_.linked->program, job_.scene, coarse);
     if (!r) {
-      fail(Exit::Budget, r.error(), request_);
+      fail(exit_of(r.error()), r.error(), request_);
       return false;
     }
     first_ = enlarged(r->film, options_.width, options_.height);

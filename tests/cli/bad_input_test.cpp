@@ -480,6 +480,12 @@ TEST_CASE("pictures over what they are made from") {
   CHECK(folder.read("good.png") == kGood);
 }
 
+TEST_CASE("a volume whose largest rates nobody knows") {
+  check_render("-o out.png" + std::string(kSmall), 1, "good.mms:1", "states no `bound`",
+               "volume \"good\" scattering = 1 / abs($object_position.z); end\n"
+               "surface \"good\" bsdf = refraction(1.0); end\n");
+}
+
 TEST_CASE("endless recursion, rendered") {
   check_render("-o out.png" + std::string(kSmall), 4, "good.mms:2", "",
                "real f(real x) =\n  f(x + 1);\n"
