@@ -305,7 +305,7 @@ TEST_CASE("an interpreter tells executables apart, and one may follow another") 
   }
 }
 
-TEST_CASE("interpreters keep nothing of an executable that is gone, though several have run it") {
+TEST_CASE("interpreters hold no executable that is gone, though several have run it") {
   Assembler a;
   a.function("f", {}, {R}).real(1).ret();
   Interpreter<float> one(4), other(4);
