@@ -105,15 +105,13 @@ void asin_of(const Interval& x, const Interval& y, Interval& re, Interval& magni
         false};
   magnitude_of_im = {std::acosh(a.lo), std::acosh(a.hi), false};
 }
-/// atanh(z) = (log(1 + z) - log(1 - z)) / 2.
+/// atanh(z) = (log(1 + z) - log(1 - z)) / 2. The real part is the logarithm of the quotient of both
+/// lengths: far out, that of logarithms of each would cancel.
 void atanh_of(const Interval& x, const Interval& y, Interval& re, Interval& im) {
   constexpr double half_pi = 1.5707963267948966;
   const Interval one = Interval::point(1), up = plus(one, x), down = plus(one, minus(x));
-  const auto logarithm = [](const Interval& r) {
-    return Interval{std::log(r.lo * (1 - kRounding)), std::log(r.hi * (1 + kRounding)), false};
-  };
-  const Interval l = plus(logarithm(length(up, y)), minus(logarithm(length(down, y))));
-  re = wider({0.5 * l.lo, 0.5 * l.hi, false}, kRounding);
+  const Interval a = length(up, y), b = length(down, y);
+  re = wider({0.5 * std::log(a.lo / b.hi), 0.5 * std::log(a.hi / b.lo), false}, kRounding);
   const Interval phi = plus(angle(y, up), minus(angle(minus(y), down)));
   im = wider({std::max(0.5 * phi.lo, -half_pi), std::min(0.5 * phi.hi, half_pi), false}, kRounding);
 }
