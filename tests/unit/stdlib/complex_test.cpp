@@ -8,7 +8,9 @@
 #include <functional>
 #include <limits>
 
+#include "stdlib/bounds.h"
 #include "tests/unit/stdlib/ulp.h"
+#include "vm/interval.h"
 
 namespace mms::stdlib::testing {
 namespace {
@@ -165,6 +167,19 @@ TEST_CASE("complex pow and powi") {
   CHECK(value(0, -1) == INFINITY);
   CHECK(value(INFINITY, 0) == 1);
   CHECK(run<double>(pow, {{0}, {0}, {0}, {0}})[0][0] == 1);
+}
+
+TEST_CASE("the enclosure of atanh holds far out, where the real part is next to nothing") {
+  for (const double x : {-795077836275712.0, -3e3, 1.0, 2.0, 1e7, 8e14, 1e30})
+    for (const double y : {-4.0, 1e-3, 1e9}) {
+      const vm::Interval in[] = {vm::Interval::point(x), vm::Interval::point(y)};
+      vm::Interval out[2];
+      bounds::complex_atanh(in, out);
+      const L across = L(y) * y, exact = log1pl(4 * L(x) / ((1 - L(x)) * (1 - L(x)) + across)) / 4;
+      CHECK_MESSAGE(out[0].lo <= exact, x, " ", y);
+      CHECK_MESSAGE(out[0].hi >= exact, x, " ", y);
+      CHECK_MESSAGE(out[0].hi - out[0].lo < 1e-14, x, " ", y);
+    }
 }
 
 }  // namespace
