@@ -88,9 +88,10 @@ void mmsSetResolver(MMsProgram* program, MMsResolve resolve, void* user);
 int mmsAddImportPath(MMsProgram* program, const char* folder);
 
 /** How images are read from the next link on: all of them together keep at most so many megabytes
- *  of decoded pieces in memory (1024 at first); one that cannot be read fails the link, or, where
- *  `missing_is_magenta`, is a warning and magenta. Images are looked for where imports are, always
- *  as files; what reads them is `mms_images.so`, which is loaded when the first one is named. */
+ *  of decoded pieces in memory, from 1 to 2^30 (1024 at first); one that cannot be read fails the
+ *  link, or, where `missing_is_magenta`, is a warning and magenta. Images are looked for where
+ *  imports are, always as files; what reads them is `mms_images.so`, which is loaded when the first
+ *  one is named. */
 int mmsSetImages(MMsProgram* program, double megabytes, int missing_is_magenta);
 
 /** The value of a `param` from the next link on, an expression in the language. */
