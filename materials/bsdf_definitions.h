@@ -227,10 +227,8 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
       }
       const auto solve = [&](const CoatedLobe<R>& lobe) {
         if (!(part ? bool(coat.ior) : coat.upper >= 0)) return;
-        if (const auto coats = coats_above(choice.coats, coat, lobe.broad())) {
-          choice.under.solve(i, lobe.round(), *coats);
-          choice.solved.set(i);
-        }
+        choice.under.solve(i, lobe.round(), coats_above(choice.coats, coat, lobe.broad()));
+        choice.solved.set(i);
       };
       if constexpr (requires { model.coated(wo); }) {
         if (detail::is_specular(model)) return 0;
@@ -255,13 +253,9 @@ Spectrum<R> Bsdf<R>::mean_through_coats(int lobe, Choice& choice) const {
   if (above.upper < 0) {
     for (int j = 0; j < kWavelengths; ++j)
       mean[j] = above.numbers.repeated(j) ? mean[j - 1] : 1 - above.numbers.mean_reflected(j);
-  } else if (const auto coats = coats_above(choice.coats, above)) {
-    choice.means.solve(lobe, *coats);
-    mean = choice.means[lobe].mean();
   } else {
-    for (int j = 0; j < kWavelengths; ++j)
-      mean[j] = mean_through<R>(
-          [&](R z) { return split_together(choice.coats, above, j, z).transmitted; });
+    choice.means.solve(lobe, coats_above(choice.coats, above));
+    mean = choice.means[lobe].mean();
   }
   return mean;
 }

@@ -44,7 +44,6 @@ struct CoatAbove {
   CoatNumbers<R> numbers{};
   int base = -1;             ///< the node right below it
   int upper = -1;            ///< that of a coat right above this one, if there is one
-  int depth = 0;             ///< of coats, with those above
   int part_of = -1;          ///< that of the coat of whose known lobes this node is one, or some
   const R* layer = nullptr;  ///< the numbers of its `coat`, if it is one
   bool passed_once = false;  ///< by what changes sides at this lobe (materials/glass_coat.h)
@@ -250,18 +249,12 @@ inline int coat_base(const Layout::Node& node) {
 }
 
 /// The coats that G of a lobe depends on: those of its node, which is `above`, and what the lobe
-/// itself, as broad as `broad`, is a part of. None where they are too many.
+/// itself, as broad as `broad`, is a part of.
 template <class R>
-inline std::optional<Coats<R>> coats_above(const PerNode<CoatAbove<R>>& coats,
-                                           const CoatAbove<R>& above,
-                                           const Broadness<R>& broad = {}) {
-  const bool part = above.part_of >= 0;
-  if (above.depth + part > Coats<R>::kMost) return {};
+inline Coats<R> coats_above(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
+                            const Broadness<R>& broad = {}) {
   Coats<R> all;
-  if (part) {
-    all.reflects = true;
-    all.add(coats.of[above.part_of].numbers.as(broad));
-  }
+  if (above.part_of >= 0) all.part = coats.of[above.part_of].numbers.as(broad);
   for (int at = above.base; at >= 0; at = coats.of[at].upper) all.add(coats.of[at].numbers);
   return all;
 }
@@ -284,12 +277,10 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
       below = {.ior = ior, .kind = detail::coat_kind(layout, params, coat)};
       below.base = base;
       below.layer = layer;
-      below.depth = 1;
       const CoatAbove<R>* upper = above[i].ior ? &above[above[i].base] : nullptr;
       Spectrum<R> least;
       if (upper) {
         below.upper = upper->base;
-        below.depth += upper->depth;
         for (int j = 0; j < kWavelengths; ++j) {
           below.nested[j] = relative_eta(ior[j], Vec3<R>{0, 0, 1}) > 1 && upper->numbers.eta[j] > 1;
           if (below.nested[j]) least[j] = upper->numbers.least_below(j);

@@ -36,9 +36,8 @@
 ///
 /// Where a coat lies right under another, as plastic under varnish, and so on, T is the product of
 /// all coats above, and a lobe of a coat below others gets E of its coat times their T: g and h are
-/// then solved for (materials/under_coats.h), within 1e-4; where facets of anisotropy 0.9 are part
-/// of two, 3e-4. Of more than six coats g is the product of each alone: 5e-3. A coat whose index is
-/// 1 at every wavelength is not there.
+/// then solved for (materials/under_coats.h), however many there are, within 1e-4; where facets of
+/// anisotropy 0.9 are part of two, 3e-4. A coat whose index is 1 at every wavelength is not there.
 ///
 /// Where the index is above 1, interfaces right below the coat, or below several, get what passes
 /// it once if light changes sides, twice if it stays outside, and never if it stays inside, along
@@ -248,10 +247,9 @@ inline R squared_of_each(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>&
 /// is of them.
 template <class R>
 inline R squared_of_several(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
-                            const UnderCoats<R>* under, const typename UnderCoats<R>::Along& along,
+                            const UnderCoats<R>& under, const typename UnderCoats<R>::Along& along,
                             const CoatedLobe<R>& lobe, int j, R through, R reflected) {
-  if (!under) return squared_of_each(coats, above, lobe, j);
-  const R solved = under->squared(j, along, through, reflected);
+  const R solved = under.squared(j, along, through, reflected);
   if (!lobe.stretched()) return solved;
   const R round = squared_of_each(coats, above, lobe.round(), j);
   return round > 0 ? solved * (squared_of_each(coats, above, lobe, j) / round) : R(0);
@@ -279,13 +277,13 @@ inline Spectrum<R> coated_scaling(const PerNode<CoatAbove<R>>& coats, const Coat
     several = part ? together : above.nested[j];
     if (!known) continue;
     if (was_known && several == were_several && coat.repeated(j) &&
-        (!several || (under && under->repeated(j)))) {
+        (!several || under->repeated(j))) {
       g[j] = g[j - 1];
       continue;
     }
     const CoatShape<R> shape = part ? coat.of(j, broad) : coat.shape[j];
     const R e = part ? shape.split(lobe.z, eta).reflected : R(1);
-    const R squared = several ? squared_of_several(coats, above, under, along, lobe, j, t, e)
+    const R squared = several ? squared_of_several(coats, above, *under, along, lobe, j, t, e)
                       : part  ? lobe.as_coat(eta, e)
                               : lobe.below(eta, shape, t);
     g[j] = squared > 0 ? (several || !part ? e * t : e) / std::sqrt(squared) : R(0);

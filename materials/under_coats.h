@@ -10,14 +10,17 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "base/quadrature.h"
 #include "base/spectrum.h"
 #include "base/warp.h"
 #include "materials/coat.h"
 #include "materials/coated.h"
+#include "materials/layout.h"
 #include "materials/lobe.h"
 
 namespace mms::materials {
@@ -54,36 +57,55 @@ struct SpreadPoints {
   }
 };
 
-/// What lies above a lobe, the nearest first. All that is solved for depends on these.
+/// What lies above a lobe, the nearest first, borrowed. All that is solved for depends on these.
 template <class R>
 struct Coats {
-  static constexpr int kMost = 6;
-  std::array<CoatNumbers<R>, kMost> of;
-  int count = 0;
-  /// The first is the coat that the lobe is a part of, as that lobe alone.
-  bool reflects = false;
+  static constexpr int kMost = kMaxNodes / 2;  ///< each is a node, with one for its own lobe
 
-  void add(const CoatNumbers<R>& coat) { of[count++] = coat; }
-  bool operator==(const Coats& b) const {
-    return count == b.count && reflects == b.reflects &&
-           std::equal(of.begin(), of.begin() + count, b.of.begin());
-  }
+  std::optional<CoatNumbers<R>> part;  ///< the coat that the lobe is a part of, as that lobe alone
+  std::array<const CoatNumbers<R>*, kMost> of;
+  int count = 0;
+
+  void add(const CoatNumbers<R>& coat) { of[count++] = &coat; }
   /// Whether wavelength j is as the one before.
   bool repeated(int j) const {
-    return std::all_of(of.begin(), of.begin() + count,
-                       [j](const CoatNumbers<R>& c) { return c.repeated(j); });
+    return (!part || part->repeated(j)) &&
+           std::all_of(of.begin(), of.begin() + count,
+                       [j](const CoatNumbers<R>* c) { return c->repeated(j); });
   }
   /// Whether there is something to solve for.
-  bool known(int j) const { return of[0].eta[j] > 1; }
-  bool several(int j) const { return count > 1 && of[0].eta[j] > 1 && of[1].eta[j] > 1; }
+  bool known(int j) const { return (part ? *part : *of[0]).eta[j] > 1; }
+  bool several(int j) const { return count > 1 && of[0]->eta[j] > 1 && of[1]->eta[j] > 1; }
   /// What the lobe is to reflect along a direction of |cosine| `z`: T, of all coats up to one whose
   /// index is not above 1, or T E.
   R through(int j, R z) const {
     R t = 1;
-    for (int k = reflects; k < count && of[k].eta[j] > 1; ++k) t *= of[k].split(j, z).transmitted;
+    for (int k = 0; k < count && of[k]->eta[j] > 1; ++k) t *= of[k]->split(j, z).transmitted;
     return t;
   }
-  R reflected(int j, R z) const { return reflects ? of[0].split(j, z).reflected : R(1); }
+  R reflected(int j, R z) const { return part ? part->split(j, z).reflected : R(1); }
+};
+
+/// A copy, by which a solution is found again; of more than a few coats there is none.
+template <class R>
+class KeptCoats {
+ public:
+  void keep(const Coats<R>& coats) {
+    count_ = coats.count <= kMost ? coats.count : -1;
+    part_ = coats.part;
+    for (int k = 0; k < count_; ++k) of_[k] = *coats.of[k];
+  }
+  bool are(const Coats<R>& coats) const {
+    return coats.count == count_ && coats.part == part_ &&
+           std::equal(of_.begin(), of_.begin() + count_, coats.of.begin(),
+                      [](const CoatNumbers<R>& a, const CoatNumbers<R>* b) { return a == *b; });
+  }
+
+ private:
+  static constexpr int kMost = 6;
+  std::optional<CoatNumbers<R>> part_;
+  std::array<CoatNumbers<R>, kMost> of_;
+  int count_ = -1;
 };
 
 /// The mean over the hemisphere of what is let through along directions of |cosine| z: through(z).
@@ -101,20 +123,20 @@ template <class R>
 class MeanThrough {
  public:
   void solve(const Coats<R>& coats) {
-    coats_ = coats;
+    kept_.keep(coats);
     for (int j = 0; j < kWavelengths; ++j)
       if (j > 0 && coats.repeated(j))
         mean_[j] = mean_[j - 1];
       else if (coats.several(j))
         mean_[j] = mean_through<R>([&](R z) { return coats.through(j, z); });
       else
-        mean_[j] = 1 - coats.of[0].mean_reflected(j);
+        mean_[j] = 1 - coats.of[0]->mean_reflected(j);
   }
-  bool solves(const Coats<R>& coats) const { return coats == coats_; }
+  bool solves(const Coats<R>& coats) const { return kept_.are(coats); }
   const Spectrum<R>& mean() const { return mean_; }
 
  private:
-  Coats<R> coats_;
+  KeptCoats<R> kept_;
   Spectrum<R> mean_;
 };
 
@@ -188,12 +210,14 @@ class UnderCoats {
   /// For the wavelengths at which the nearest index is above 1.
   void solve(const CoatedLobe<R>& lobe, const Coats<R>& coats) {
     lobe_ = lobe;
-    coats_ = coats;
+    kept_.keep(coats);
+    reflects_ = coats.part.has_value();
     count_ = 0;
     const SpreadMatrix<R> matrix(lobe);
     for (int j = 0; j < kWavelengths; ++j) {
+      repeated_[j] = coats.repeated(j);
       at_[j] = std::max(count_ - 1, 0);
-      if (!coats.known(j) || (count_ > 0 && coats.repeated(j))) continue;
+      if (!coats.known(j) || (count_ > 0 && repeated_[j])) continue;
       at_[j] = count_++;
       Values through, reflected;
       for (int k = 0; k < axes::kSpread; ++k) {
@@ -204,7 +228,7 @@ class UnderCoats {
       const Values below = scaled(matrix, through, 4);
       Values& above = above_[at_[j]];
       for (int k = 0; k < axes::kSpread; ++k) above[k] = below[k] * below[k] - through[k];
-      if (!coats.reflects) continue;
+      if (!reflects_) continue;
       const Values part = scaled(matrix, reflected, 12);
       Values& quotient = quotient_[at_[j]];
       for (int k = 0; k < axes::kSpread; ++k)
@@ -213,7 +237,7 @@ class UnderCoats {
     }
   }
   bool solves(const CoatedLobe<R>& lobe, const Coats<R>& coats) const {
-    return lobe.is_like(lobe_) && coats == coats_;
+    return lobe.is_like(lobe_) && kept_.are(coats);
   }
 
   /// What `squared` takes of a direction of |cosine| `z`.
@@ -227,25 +251,27 @@ class UnderCoats {
     for (int n = 0; n < count_; ++n)
       for (int k = 0; k < axes::kSpread; ++k) {
         along.above[n] += weights[k] * above_[n][k];
-        if (coats_.reflects) along.quotient[n] += weights[k] * quotient_[n][k];
+        if (reflects_) along.quotient[n] += weights[k] * quotient_[n][k];
       }
     return along;
   }
 
   /// Whether wavelength j is as the one before.
-  bool repeated(int j) const { return coats_.repeated(j); }
+  bool repeated(int j) const { return repeated_[j]; }
 
   /// G^2 of wavelength j along the direction, for T = `through` and, of a part of a coat, E =
   /// `reflected`.
   R squared(int j, const Along& along, R through, R reflected = 1) const {
     const R below = std::max(through + along.above[at_[j]], through / 2);
-    if (!coats_.reflects) return below;
+    if (!reflects_) return below;
     return below * reflected * std::exp(limited(along.quotient[at_[j]], R(-20), R(40)));
   }
 
  private:
   CoatedLobe<R> lobe_;
-  Coats<R> coats_;
+  KeptCoats<R> kept_;
+  bool reflects_;                       ///< the lobe is a part of a coat
+  std::bitset<kWavelengths> repeated_;  ///< wavelengths that are as the ones before
   int count_;                           ///< of solutions
   Values above_[kWavelengths];          ///< G^2 - T at the points
   Values quotient_[kWavelengths];       ///< of a part of a coat: ln of G^2 / E over that without E
