@@ -91,10 +91,14 @@ Material any_child(bool layered, stats::Random& random) {
       return tinted(Lobe::RoughMatte, 1, {x});
     case 7:
       return matte(1);
-    case 8:
-      return fresnel_mix(y > 0 ? matte(1) : tinted(Lobe::RoughMatte, 1, {x}),
-                         y > 0 ? microfacet(1, x) : glossy(1, gloss),
-                         1 + std::abs(any_number(random)));
+    case 8: {
+      Material m = fresnel_mix(y > 0 ? matte(1) : tinted(Lobe::RoughMatte, 1, {x}),
+                               y > 0 ? microfacet(1, x) : glossy(1, gloss),
+                               1 + std::abs(any_number(random)));
+      for (int more = x < 0.1 ? 8 : 0; more > 0; --more)
+        m = coat(microfacet(1, x), m, 0, 0, 1 + std::abs(any_number(random)));
+      return m;
+    }
     case 9:
       return dielectric(any_number(random), x, 1, 1, y);
     case 10:
