@@ -165,11 +165,19 @@ struct Counts {
 /// How many calls of each model.
 long long wanted_calls() { return setting("MMS_EXTREME_CALLS", kSanitized ? 1'000 : 30'000); }
 
-/// All but what MMS_STATS_MODEL names, by the start of it.
+/// All but what MMS_STATS_MODEL names, by the start of it; that must be one at least.
 bool left_out(int lobe) {
   const char* only = std::getenv("MMS_STATS_MODEL");
-  const std::string_view signature = materials::rows()[lobe].signature;  // "material name(..."
-  return only && !signature.substr(signature.find(' ') + 1).starts_with(only);
+  if (!only) return false;
+  const auto named = [only](int k) {
+    const std::string_view signature = materials::rows()[k].signature;  // "material name(..."
+    return signature.substr(signature.find(' ') + 1).starts_with(only);
+  };
+  if (named(lobe)) return false;
+  for (int k = 0; k < materials::kLobeCount; ++k)
+    if (named(k)) return true;
+  FAIL("MMS_STATS_MODEL names no model: ", std::string(only));
+  return true;
 }
 
 void report(const std::string& name, const Counts& counts, const std::string& first) {
