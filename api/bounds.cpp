@@ -51,6 +51,7 @@ class Weights {
     switch (Lobe(node.lobe)) {
       case Lobe::Mix:
       case Lobe::FresnelMix:
+      case Lobe::FilmMix:
       case Lobe::Coat:
       case Lobe::Layer:
         return std::max(at(node.children[0]), at(node.children[1]));

@@ -163,6 +163,7 @@ Result Bsdf<R>::with_model(int i, Result none, Visit visit) const {
     case Lobe::Draine:
     case Lobe::Mix:
     case Lobe::FresnelMix:
+    case Lobe::FilmMix:
     case Lobe::Coat:
     case Lobe::Scale:
     case Lobe::Add:
@@ -226,7 +227,7 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
         if (coat.ior) choice.coats.of[coat.base].mean = mean_through_coats(i, choice);
       }
       const auto solve = [&](const CoatedLobe<R>& lobe) {
-        if (!(part ? bool(coat.ior) : coat.upper >= 0)) return;
+        if (!is_solved_for(choice.coats, coat)) return;
         choice.under.solve(i, lobe.round(), coats_above(choice.coats, coat, lobe.broad()));
         choice.solved.set(i);
       };
@@ -250,7 +251,7 @@ template <class R>
 Spectrum<R> Bsdf<R>::mean_through_coats(int lobe, Choice& choice) const {
   const CoatAbove<R>& above = choice.coats.of[lobe];
   Spectrum<R> mean;
-  if (above.upper < 0) {
+  if (above.upper < 0 && !above.numbers.filmed()) {
     for (int j = 0; j < kWavelengths; ++j)
       mean[j] = above.numbers.repeated(j) ? mean[j - 1] : 1 - above.numbers.mean_reflected(j);
   } else {

@@ -18,18 +18,23 @@
 /// facets there. `glossy` counts as the facets that are as wide. Of several lobes all shares are
 /// means by their weights.
 ///
+/// Under a film (`film_mix`) F is what interface and film reflect, which rises and falls.
+///
 /// A coat below another is met by light that this one has refracted, whose cosine is at least b =
 /// sqrt(1 - 1 / index^2) however far outside it grazes. There F rises no further than F(b): so much
 /// of F becomes L that it is that at grazing, and where L rises further, so much of L does not
 /// depend on the direction. Right above interfaces, as of glass, a coat is met as from outside.
 
 #include <algorithm>
+#include <array>
+#include <bitset>
 #include <cmath>
 
 #include "base/quadrature.h"
 #include "base/spectrum.h"
 #include "materials/fresnel.h"
 #include "materials/lobe.h"
+#include "materials/thin_film.h"
 
 namespace mms::materials {
 
@@ -53,6 +58,54 @@ inline R glossy_as_facets(R gloss) {
   return 1 / std::sqrt(1 + 2 * gloss);
 }
 
+/// The mean over the hemisphere of f(z), z the |cosine|, by `parts` rules of eight points. They are
+/// dense towards grazing.
+template <class R, class F>
+inline R hemisphere_mean(const F& f, int parts = 2) {
+  const auto at = [&](double u) {
+    const double z = u * u * u;
+    return 6 * u * u * z * double(f(R(z)));
+  };
+  double sum = 0;
+  for (int k = 0; k < parts; ++k) sum += integrate<8>(at, double(k) / parts, (k + 1.0) / parts);
+  return R(sum);
+}
+
+/// What a coat reflects by: an interface, or one under a film. More fringes than one fade, to the
+/// mean of films of all thicknesses: few points see what E and T are (materials/under_coats.h), and
+/// films of that thickness, which is not even to a wave, look so.
+template <class R>
+struct Face {
+  R eta{1};  ///< index below over index above
+  Film<R> film{};
+
+  Face(R index, const Film<R>& above = {}) : eta(index), film(above) {}
+
+  FresnelSplit<R> split(R z) const {
+    if (!film.there()) return fresnel_split(z, eta);
+    if (!(refraction_g2(z, eta) > 0)) return {R(1), R(0)};
+    const R more = film.fringes() - 1;
+    if (!(more > 0)) return film.split(z, R(1), eta);
+    const R contrast = std::exp(-more * more);
+    FresnelSplit<R> f = film.mean_split(z, eta);
+    if (contrast > R(1e-4)) {
+      const FresnelSplit<R> sharp = film.split(z, R(1), eta);
+      f.reflected += contrast * (sharp.reflected - f.reflected);
+      f.transmitted += contrast * (sharp.transmitted - f.transmitted);
+    }
+    return f;
+  }
+  R reflected(R z) const { return split(z).reflected; }
+
+  /// The mean over the hemisphere; of films by four points.
+  R mean() const {
+    if (!film.there()) return std::max(fresnel_dielectric_diffuse(eta), R(0));
+    return R(integrate<4>([this](double x) { return double(reflected(R(std::sqrt(x)))); }, 0, 1));
+  }
+  /// Rules that see each fringe of a film that is left.
+  int parts() const { return 2 + int(std::min(film.fringes(), R(4))); }
+};
+
 namespace held {
 inline constexpr double kLeast = 0.3;  ///< the cosine at which L is F at grazing
 
@@ -70,7 +123,7 @@ inline R mean(R eta) {
 }
 }  // namespace held
 
-/// E and T of one index: level + steep F + held L, and the rest.
+/// E and T of one face: level + steep F + held L, and the rest.
 template <class R>
 struct CoatShape {
   FresnelSplit<R> level{R(0), R(0)};
@@ -85,18 +138,18 @@ struct CoatShape {
     return level.reflected == b.level.reflected && steep == b.steep && held == b.held;
   }
 
-  FresnelSplit<R> split(R z, R eta) const {
+  FresnelSplit<R> split(R z, const Face<R>& face) const {
     FresnelSplit<R> e = level;
     const auto add = [&e](R share, const FresnelSplit<R>& f) {
       e.reflected += share * f.reflected;
       e.transmitted += share * f.transmitted;
     };
-    if (steep != 0) add(steep, fresnel_split(z, eta));
-    if (held != 0) add(held, fresnel_split(held::cosine(z), eta));
+    if (steep != 0) add(steep, face.split(z));
+    if (held != 0) add(held, face.split(held::cosine(z)));
     return e;
   }
 
-  /// The mean of E over the hemisphere, `mean` being that of F.
+  /// The mean of E over the hemisphere, `mean` being that of F, which no film is part of.
   R mean(R mean, R eta) const {
     return level.reflected + steep * mean + (held != 0 ? held * held::mean(eta) : R(0));
   }
@@ -108,16 +161,16 @@ struct CoatShape {
   }
 
   /// Of a coat that light meets at cosines of at least `least`.
-  CoatShape below(R least, R eta) const {
+  CoatShape below(R least, const Face<R>& face) const {
     constexpr R held_least = R(held::kLeast);
-    const R most = fresnel_dielectric(least, eta), held_most = fresnel_dielectric(held_least, eta);
+    const R most = face.reflected(least), held_most = face.reflected(held_least);
     CoatShape to = *this;
     if (least < held_least) {
       to.steep = steep * limited((most - held_most) / (1 - held_most), R(0), R(1));
       to.held = held + (steep - to.steep);
       return to;
     }
-    const FresnelSplit<R> normal = fresnel_split(R(1), eta);
+    const FresnelSplit<R> normal = face.split(R(1));
     const R rises = held_most - normal.reflected;
     const R kept = rises > 0 ? limited((most - normal.reflected) / rises, R(0), R(1)) : R(0);
     to.steep = 0;
@@ -129,54 +182,87 @@ struct CoatShape {
   }
 };
 
+/// A film at each wavelength.
+template <class R>
+using Films = std::array<Film<R>, kWavelengths>;
+
 /// A coat at each wavelength. Where its index is not above 1 it counts as a mirror.
 template <class R>
 struct CoatNumbers {
   Spectrum<R> eta{R(1)};  ///< index below over index above
-  Spectrum<R> mean{};     ///< of F over the hemisphere
-  Spectrum<R> least{};    ///< |cosine| at which light meets the coat, below others
+  Films<R> films;
+  Spectrum<R> mean{};   ///< of F over the hemisphere
+  Spectrum<R> least{};  ///< |cosine| at which light meets the coat, below others
   CoatShape<R> shape[kWavelengths];
 
   CoatNumbers() = default;
-  CoatNumbers(const R* ior, const Spectrum<R>& held, const Spectrum<R>& even,
+  CoatNumbers(const R* ior, const Films<R>& above, const Spectrum<R>& held, const Spectrum<R>& even,
               const Spectrum<R>& least_cosine)
-      : least(least_cosine) {
-    for_each_index(ior, [&](int j, bool repeated) {
+      : films(above), least(least_cosine) {
+    for_each_index(ior, [&](int j, bool same_index) {
+      const bool repeated = same_index && films[j] == films[j - 1];
       eta[j] = repeated ? eta[j - 1] : relative_eta(ior[j], Vec3<R>{0, 0, 1});
-      mean[j] = repeated ? mean[j - 1] : std::max(fresnel_dielectric_diffuse(eta[j]), R(0));
+      // Under a film an index of 1 is a coat like others.
+      constexpr R next = R(1e-4);
+      if (films[j].there() && std::abs(eta[j] - 1) < next) eta[j] = 1 + next;
+      mean[j] = repeated ? mean[j - 1] : face(j).mean();
       const bool same =
           repeated && held[j] == held[j - 1] && even[j] == even[j - 1] && least[j] == least[j - 1];
       shape[j] = same ? shape[j - 1] : of(j, {held[j], even[j]});
     });
+    find_repeated();
+  }
+
+  Face<R> face(int j) const { return {eta[j], films[j]}; }
+  /// The index of a bare interface that reflects as much along the normal.
+  R bare(int j) const {
+    if (!films[j].there()) return eta[j];
+    constexpr R most = R(0.9), next = R(1e-4);
+    const R root = std::sqrt(std::min(face(j).reflected(R(1)), most));
+    return std::max((1 + root) / (1 - root), 1 + next);
+  }
+  /// Whether a film is part of it at some wavelength.
+  bool filmed() const {
+    return std::any_of(films.begin(), films.end(), [](const Film<R>& f) { return f.there(); });
   }
 
   bool operator==(const CoatNumbers& b) const {
-    return eta.v == b.eta.v && least.v == b.least.v && std::ranges::equal(shape, b.shape);
+    return eta.v == b.eta.v && films == b.films && least.v == b.least.v &&
+           std::ranges::equal(shape, b.shape);
   }
   /// Whether wavelength j is as the one before.
-  bool repeated(int j) const {
-    return j > 0 && eta[j] == eta[j - 1] && least[j] == least[j - 1] && shape[j] == shape[j - 1];
-  }
+  bool repeated(int j) const { return repeated_[j]; }
 
   /// What a lobe of the coat is at wavelength j.
   CoatShape<R> of(int j, const Broadness<R>& lobe) const {
     if (!(eta[j] > 1)) return {};
     const CoatShape<R> alone(lobe, mean[j]);
-    return least[j] > 0 ? alone.below(least[j], eta[j]) : alone;
+    return least[j] > 0 ? alone.below(least[j], face(j)) : alone;
   }
   /// The coat as if it were of that lobe alone.
   CoatNumbers as(const Broadness<R>& lobe) const {
     CoatNumbers to = *this;
     for (int j = 0; j < kWavelengths; ++j)
       to.shape[j] = repeated(j) ? to.shape[j - 1] : of(j, lobe);
+    to.find_repeated();
     return to;
   }
-  FresnelSplit<R> split(int j, R z) const { return shape[j].split(z, eta[j]); }
+  FresnelSplit<R> split(int j, R z) const { return shape[j].split(z, face(j)); }
+  /// \pre no film
   R mean_reflected(int j) const { return shape[j].mean(mean[j], eta[j]); }
   /// |Cosine| at which light that has passed meets what lies below, at least.
   R least_below(int j) const {
     const R sine2 = (1 - least[j]) * (1 + least[j]) / (eta[j] * eta[j]);
     return std::sqrt(1 - sine2);
+  }
+
+ private:
+  std::bitset<kWavelengths> repeated_;
+
+  void find_repeated() {
+    for (int j = 1; j < kWavelengths; ++j)
+      repeated_[j] = eta[j] == eta[j - 1] && films[j] == films[j - 1] && least[j] == least[j - 1] &&
+                     shape[j] == shape[j - 1];
   }
 };
 

@@ -55,6 +55,8 @@ struct CoatAbove {
 
   /// Whether at wavelength j it counts together with those above.
   std::array<bool, kWavelengths> nested{};
+
+  bool filmed(int j) const { return numbers.films[j].there(); }
 };
 
 /// One entry for each node of a layout; entries beyond it are not initialised.
@@ -96,6 +98,15 @@ template <class R>
 inline R layer_transmittance(const R* p, int j, R c) {
   const R depth = std::min(non_negative(p[0]) * non_negative(p[1 + j]), R(1e6));
   return layer_transmittance(depth, p[1 + kWavelengths + j], c);
+}
+
+/// The films of a `film_mix`, whose numbers behind its indices are at `p`.
+template <class R>
+inline Films<R> films(const R* p) {
+  Films<R> films;
+  for (int j = 0; j < kWavelengths; ++j)
+    films[j] = {p[j], p[kWavelengths], p[kWavelengths + 1 + j]};
+  return films;
 }
 
 /// The weights of the children of a `mix`, `scale` or `add`, whose factors are numbers; whether the
@@ -243,9 +254,22 @@ inline FresnelSplit<R> split_together(const PerNode<CoatAbove<R>>& coats, const 
 
 /// The base of a combiner that may be a coat, or -1.
 inline int coat_base(const Layout::Node& node) {
-  return node.lobe == Lobe::FresnelMix ? node.children[0]
-         : node.lobe == Lobe::Coat     ? node.children[1]
-                                       : -1;
+  switch (node.lobe) {
+    case Lobe::FresnelMix:
+    case Lobe::FilmMix:
+      return node.children[0];
+    case Lobe::Coat:
+      return node.children[1];
+    default:
+      return -1;
+  }
+}
+
+/// Whether G of a lobe of a node with `above` is solved for: it is no table's.
+template <class R>
+inline bool is_solved_for(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above) {
+  if (above.part_of >= 0) return above.ior || coats.of[above.part_of].numbers.filmed();
+  return above.ior && (above.upper >= 0 || above.numbers.filmed());
 }
 
 /// The coats that G of a lobe depends on: those of its node, which is `above`, and what the lobe
@@ -271,8 +295,11 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
     const R* p = params + node.first_param;
     for (int c = 0; c < node.child_count; ++c) above[node.children[c]] = above[i];
     const int a = node.children[0], b = node.children[1];
-    const auto coated = [&](int base, int coat, const R* ior, const R* layer) {
-      if (std::all_of(ior, ior + kWavelengths, [](R n) { return n == 1; })) return;
+    const auto coated = [&](int base, int coat, const R* ior, const Films<R>& films,
+                            const R* layer) {
+      if (std::all_of(ior, ior + kWavelengths, [](R n) { return n == 1; }) &&
+          std::none_of(films.begin(), films.end(), [](const Film<R>& f) { return f.there(); }))
+        return;
       CoatAbove<R>& below = above[base];
       below = {.ior = ior, .kind = detail::coat_kind(layout, params, coat)};
       below.base = base;
@@ -281,12 +308,13 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
       Spectrum<R> least;
       if (upper) {
         below.upper = upper->base;
-        for (int j = 0; j < kWavelengths; ++j) {
-          below.nested[j] = relative_eta(ior[j], Vec3<R>{0, 0, 1}) > 1 && upper->numbers.eta[j] > 1;
-          if (below.nested[j]) least[j] = upper->numbers.least_below(j);
-        }
+        for (int j = 0; j < kWavelengths; ++j)
+          if (upper->numbers.eta[j] > 1) least[j] = upper->numbers.least_below(j);
       }
-      below.numbers = {ior, below.kind.held, below.kind.even, least};
+      below.numbers = {ior, films, below.kind.held, below.kind.even, least};
+      if (upper)
+        for (int j = 0; j < kWavelengths; ++j)
+          below.nested[j] = below.numbers.eta[j] > 1 && upper->numbers.eta[j] > 1;
       below.o = {below.numbers, std::abs(wo.z)};
       below.through_o = below.o.through;
       for (int j = 0; j < kWavelengths; ++j)
@@ -294,9 +322,11 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
       if (below.kind.known) above[coat].part_of = base;
     };
     if (node.lobe == Lobe::FresnelMix)
-      coated(a, b, p, nullptr);
+      coated(a, b, p, {}, nullptr);
+    else if (node.lobe == Lobe::FilmMix)
+      coated(a, b, p, detail::films(p + kWavelengths), nullptr);
     else if (node.lobe == Lobe::Coat)
-      coated(b, a, p + 1 + kWavelengths, p);
+      coated(b, a, p + 1 + kWavelengths, {}, p);
     else if (node.lobe == Lobe::Layer && nodes[a].lobe == Lobe::Sheen)
       above[b] = {};
   }
@@ -351,6 +381,9 @@ inline CoatOnGlass<R> coat_on_glass(const PerNode<CoatAbove<R>>& coats, const Co
                                     int j) {
   CoatOnGlass<R> on;
   if (!(above.numbers.eta[j] > 1)) return on;
+  bool filmed = false;
+  for_each_together(coats, above, j, [&](const CoatAbove<R>& one) { filmed |= one.filmed(j); });
+  if (filmed) return on;
   // F is that of the uppermost; of others little is left below it (materials/coat.h).
   const CoatAbove<R>* top = &above;
   R through = 1, before = 1;  // along the surface, with and without the uppermost

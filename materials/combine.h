@@ -39,6 +39,13 @@
 /// then solved for (materials/under_coats.h), however many there are, within 1e-4; where facets of
 /// anisotropy 0.9 are part of two, 3e-4. A coat whose index is 1 at every wavelength is not there.
 ///
+/// Under a film, of `film_mix(base, coat, ior, film_ior, thickness, wavelength)`, E is what film and
+/// interface reflect (materials/coat.h), and g and h are solved for too. Mattes, round facets and
+/// `glossy` in it and under it keep their energy within 1e-4 where it is up to 1.2 waves thick, 3e-4
+/// up to 2, 4e-3 up to 8 and 1e-4 above; stretched facets, for which it is taken for a bare
+/// interface that reflects as much along the normal, within 3e-2. Interfaces below it get min(T,
+/// T').
+///
 /// Where the index is above 1, interfaces right below the coat, or below several, get what passes
 /// it once if light changes sides, twice if it stays outside, and never if it stays inside, along
 /// the directions outside; the same of the layer of a `coat`. The coat sends back the rest
@@ -172,6 +179,7 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
         break;
       }
       case Lobe::FresnelMix:
+      case Lobe::FilmMix:
         under_coat(i, a, p, w[a], w[b]);
         break;
       case Lobe::Coat:
@@ -212,7 +220,7 @@ inline Spectrum<R> delta_weight(const Spectrum<R>& other, const PerNode<CoatAbov
   Spectrum<R> f = other;
   for (int j = 0; j < kWavelengths; ++j)
     if (coat.eta[j] > 1)
-      f[j] *= coat.of(j, {}).split(std::min(std::abs(cosine), R(1)), coat.eta[j]).reflected;
+      f[j] *= coat.of(j, {}).split(std::min(std::abs(cosine), R(1)), coat.face(j)).reflected;
   return f;
 }
 
@@ -224,21 +232,22 @@ inline bool counts_together(const PerNode<CoatAbove<R>>& coats, const CoatAbove<
 }
 
 /// G^2 of a lobe below several coats, or as a part of a lower one, as the product of what it is for
-/// each alone: of first order in what they vary, which below the first coat is little
-/// (materials/coat.h).
+/// each alone, films as bare interfaces: of first order in what they vary,
+/// which below the first coat is little (materials/coat.h).
 template <class R>
 inline R squared_of_each(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
                          const CoatedLobe<R>& lobe, int j) {
   R squared = 1;
   if (above.part_of >= 0) {
     const CoatNumbers<R>& coat = coats.of[above.part_of].numbers;
-    squared = lobe.as_lower_coat(coat.eta[j], CoatShape<R>(lobe.broad(), coat.mean[j]),
+    squared = lobe.as_lower_coat(coat.bare(j), CoatShape<R>(lobe.broad(), coat.mean[j]),
                                  coat.of(j, lobe.broad()));
   }
   for (int at = above.base; at >= 0;) {
     const CoatAbove<R>& one = coats.of[at];
-    squared *= lobe.below(one.numbers.eta[j], one.numbers.shape[j],
-                          one.numbers.split(j, lobe.z).transmitted);
+    const R bare = one.numbers.bare(j);
+    squared *= lobe.below(bare, one.numbers.shape[j],
+                          one.numbers.shape[j].split(lobe.z, bare).transmitted);
     at = one.nested[j] ? one.upper : -1;
   }
   return squared;
@@ -247,9 +256,9 @@ inline R squared_of_each(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>&
 /// The same, from what is solved for round lobes: for stretched ones, as much more as the product
 /// is of them.
 template <class R>
-inline R squared_of_several(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
-                            const UnderCoats<R>& under, const typename UnderCoats<R>::Along& along,
-                            const CoatedLobe<R>& lobe, int j, R through, R reflected) {
+inline R squared_as_solved(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
+                           const UnderCoats<R>& under, const typename UnderCoats<R>::Along& along,
+                           const CoatedLobe<R>& lobe, int j, R through, R reflected) {
   const R solved = under.squared(j, along, through, reflected);
   if (!lobe.stretched()) return solved;
   const R round = squared_of_each(coats, above, lobe.round(), j);
@@ -258,7 +267,7 @@ inline R squared_of_several(const PerNode<CoatAbove<R>>& coats, const CoatAbove<
 
 /// g of materials/coated.h along one direction, of a lobe that is known below a coat or as a part
 /// of one; 1 where no more is known. `through` is what the coats above that count together let
-/// through there, `under` what is solved for the lobe where they are several.
+/// through there, `under` what is solved for the lobe (is_solved_for).
 template <class R>
 inline Spectrum<R> coated_scaling(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
                                   const UnderCoats<R>* under, const CoatedLobe<R>& lobe,
@@ -269,25 +278,25 @@ inline Spectrum<R> coated_scaling(const PerNode<CoatAbove<R>>& coats, const Coat
   if (under) along = under->along(lobe.z);
   Spectrum<R> g{R(1)};
   const Broadness<R> broad = part ? lobe.broad() : Broadness<R>{};
-  bool known = false, several = false;
+  bool known = false, solved = false;
   for (int j = 0; j < kWavelengths; ++j) {
-    const bool was_known = known, were_several = several;
-    const R eta = coat.eta[j], t = through[j];
+    const bool was_known = known, was_solved = solved;
+    const R eta = coat.eta[j];
     const bool together = counts_together(coats, above, j);
     known = part ? eta > 1 : together;
-    several = part ? together : above.nested[j];
+    solved = coat.films[j].there() || (part ? together : above.nested[j]);
     if (!known) continue;
-    if (was_known && several == were_several && coat.repeated(j) &&
-        (!several || under->repeated(j))) {
+    if (was_known && solved == was_solved && coat.repeated(j) && (!solved || under->repeated(j))) {
       g[j] = g[j - 1];
       continue;
     }
     const CoatShape<R> shape = part ? coat.of(j, broad) : coat.shape[j];
-    const R e = part ? shape.split(lobe.z, eta).reflected : R(1);
-    const R squared = several ? squared_of_several(coats, above, *under, along, lobe, j, t, e)
-                      : part  ? lobe.as_coat(eta, e)
-                              : lobe.below(eta, shape, t);
-    g[j] = squared > 0 ? (several || !part ? e * t : e) / std::sqrt(squared) : R(0);
+    const R e = part ? shape.split(lobe.z, coat.face(j)).reflected : R(1);
+    const R t = together ? through[j] : R(1);
+    const R squared = solved ? squared_as_solved(coats, above, *under, along, lobe, j, t, e)
+                      : part ? lobe.as_coat(eta, e)
+                             : lobe.below(eta, shape, t);
+    g[j] = squared > 0 ? e * t / std::sqrt(squared) : R(0);
   }
   return g;
 }
@@ -362,7 +371,8 @@ inline void weigh_for_choice(const Layout& layout, const R* params, Vec3<R> wo,
         w[b] = w[i] * left.along(cos_o);
         break;
       }
-      case Lobe::FresnelMix: {
+      case Lobe::FresnelMix:
+      case Lobe::FilmMix: {
         Spectrum<R> reflected, transmitted;
         split(p, a, reflected, transmitted);
         w[a] = w[i] * transmitted;

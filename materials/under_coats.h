@@ -15,7 +15,6 @@
 #include <numbers>
 #include <optional>
 
-#include "base/quadrature.h"
 #include "base/spectrum.h"
 #include "base/warp.h"
 #include "materials/coat.h"
@@ -75,6 +74,12 @@ struct Coats {
   }
   /// Whether there is something to solve for.
   bool known(int j) const { return (part ? *part : *of[0]).eta[j] > 1; }
+  /// Of the faces that count.
+  int parts(int j) const {
+    int most = 0;
+    for (int k = 0; k < count; ++k) most = std::max(most, of[k]->face(j).parts());
+    return most;
+  }
   bool several(int j) const { return count > 1 && of[0]->eta[j] > 1 && of[1]->eta[j] > 1; }
   /// What the lobe is to reflect along a direction of |cosine| `z`: T, of all coats up to one whose
   /// index is not above 1, or T E.
@@ -108,17 +113,7 @@ class KeptCoats {
   int count_ = -1;
 };
 
-/// The mean over the hemisphere of what is let through along directions of |cosine| z: through(z).
-template <class R, class Through>
-inline R mean_through(const Through& through) {
-  const auto at = [&](double u) {  // z = u^3: dense towards grazing
-    const double z = u * u * u;
-    return 6 * u * u * z * double(through(R(z)));
-  };
-  return R(integrate<8>(at, 0, 0.5) + integrate<8>(at, 0.5, 1));
-}
-
-/// That of coats together.
+/// The mean over the hemisphere of what coats let through together.
 template <class R>
 class MeanThrough {
  public:
@@ -127,8 +122,8 @@ class MeanThrough {
     for (int j = 0; j < kWavelengths; ++j)
       if (j > 0 && coats.repeated(j))
         mean_[j] = mean_[j - 1];
-      else if (coats.several(j))
-        mean_[j] = mean_through<R>([&](R z) { return coats.through(j, z); });
+      else if (coats.several(j) || coats.of[0]->films[j].there())
+        mean_[j] = hemisphere_mean<R>([&](R z) { return coats.through(j, z); }, coats.parts(j));
       else
         mean_[j] = 1 - coats.of[0]->mean_reflected(j);
   }
@@ -230,10 +225,12 @@ class UnderCoats {
       for (int k = 0; k < axes::kSpread; ++k) above[k] = below[k] * below[k] - through[k];
       if (!reflects_) continue;
       const Values part = scaled(matrix, reflected, 12);
-      Values& quotient = quotient_[at_[j]];
+      Values& rest = rest_[at_[j]];
+      filmed_[at_[j]] = coats.part->face(j).film.there();
       for (int k = 0; k < axes::kSpread; ++k)
-        quotient[k] =
-            2 * std::log(part[k] / below[k]) - std::log(coats.reflected(j, matrix.cosine(k)));
+        rest[k] = filmed_[at_[j]] ? part[k] * part[k] - reflected[k]
+                                  : 2 * std::log(part[k] / below[k]) -
+                                        std::log(coats.reflected(j, matrix.cosine(k)));
     }
   }
   bool solves(const CoatedLobe<R>& lobe, const Coats<R>& coats) const {
@@ -242,7 +239,7 @@ class UnderCoats {
 
   /// What `squared` takes of a direction of |cosine| `z`.
   struct Along {
-    std::array<R, kWavelengths> above{}, quotient{};
+    std::array<R, kWavelengths> above{}, rest{};
   };
   Along along(R z) const {
     const Values weights =
@@ -251,7 +248,7 @@ class UnderCoats {
     for (int n = 0; n < count_; ++n)
       for (int k = 0; k < axes::kSpread; ++k) {
         along.above[n] += weights[k] * above_[n][k];
-        if (reflects_) along.quotient[n] += weights[k] * quotient_[n][k];
+        if (reflects_) along.rest[n] += weights[k] * rest_[n][k];
       }
     return along;
   }
@@ -264,7 +261,9 @@ class UnderCoats {
   R squared(int j, const Along& along, R through, R reflected = 1) const {
     const R below = std::max(through + along.above[at_[j]], through / 2);
     if (!reflects_) return below;
-    return below * reflected * std::exp(limited(along.quotient[at_[j]], R(-20), R(40)));
+    const R rest = along.rest[at_[j]], all = through * reflected;
+    if (filmed_[at_[j]]) return std::max(all + rest, all / 4);
+    return below * reflected * std::exp(limited(rest, R(-20), R(40)));
   }
 
  private:
@@ -274,7 +273,10 @@ class UnderCoats {
   std::bitset<kWavelengths> repeated_;  ///< wavelengths that are as the ones before
   int count_;                           ///< of solutions
   Values above_[kWavelengths];          ///< G^2 - T at the points
-  Values quotient_[kWavelengths];       ///< of a part of a coat: ln of G^2 / E over that without E
+  /// Of a part of a coat: ln of G^2 / E over that without E, as E may be next to nothing along most
+  /// directions; under a film, where it is so along few, G^2 - T E.
+  Values rest_[kWavelengths];
+  std::bitset<kWavelengths> filmed_;    ///< solutions of which the latter is true
   std::array<int, kWavelengths> at_{};  ///< the solution of a wavelength
 };
 

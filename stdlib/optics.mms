@@ -225,6 +225,12 @@ material coated_metal(spectrum n, k, real thickness, spectrum film_ior = 1.5,
 material coated_glass(spectrum ior, real thickness, spectrum film_ior = 1.38) =
     film_dielectric(ior, film_ior, thickness, $wavelength);
 
+/// `base`, such as a matte, under facets `top` and a transparent film `thickness` metres thin on
+/// them: oil on plastic, the wing of a beetle.
+/// >>> coated_plastic(matte(0.02), microfacet(1, 0.2), 400nm)
+material coated_plastic(material base, top, real thickness, spectrum ior = 1.5, film_ior = 1.38) =
+    film_mix(base, top, ior, film_ior, thickness, $wavelength);
+
 /// Phase function of two Henyey-Greenstein lobes: `g1` with weight 1 - t, `g2` with weight t.
 /// >>> two_lobe(0.8, -0.3, 0.25)
 material two_lobe(real g1, g2, spectrum t) = mix(henyey_greenstein(g1), henyey_greenstein(g2), t);

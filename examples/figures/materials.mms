@@ -63,6 +63,7 @@ end
 
 // Combiners.
 surface mix bsdf = mix(matte(rgb(0.8, 0.2, 0.1)), mirror(), 0.3); end
+surface film_mix bsdf = film_mix(matte(0.02), microfacet(1, 0.2), 1.5, 2.0, 350nm, $wavelength); end
 surface fresnel_mix bsdf = fresnel_mix(matte(rgb(0.8, 0.2, 0.1)), glossy(1, 400.0), 1.5); end
 surface coat bsdf = coat(glossy(1, 4000.0), matte(1), 1.0, rgb(0.05, 0.9, 0.6), 1.5); end
 surface layer bsdf = layer(sheen(rgb(0.9, 0.6, 0.5), 0.4), matte(rgb(0.4, 0.03, 0.05))); end

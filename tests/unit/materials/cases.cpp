@@ -87,6 +87,12 @@ std::vector<Case> smooth_cases() {
   put("coat over rough matte",
       fresnel_mix(tinted(Lobe::RoughMatte, 0.8, {0.5}), glossy(1, 9), 1.5));
   put("coat of mirror", fresnel_mix(matte(0.8), mirror(1), 1.5));
+  put("film over plastic",
+      film_mix(matte(0.8), microfacet(1, 0.4), 1.5, ramp(1.3, 1.4), 400e-9, ramp(400e-9, 700e-9)));
+  put("film between coats", coat(mirror(1),
+                                 film_mix(mix(matte(0.8), microfacet(1, 0.5), 0.4), glossy(1, 30),
+                                          ramp(1.3, 1.5), 2, 200e-9, ramp(400e-9, 700e-9)),
+                                 0.2, ramp(0.1, 2), 1.6));
   put("nested", add(scale(fresnel_mix(mix(matte(0.5), translucent(ramp(0.1, 0.5)), 0.4),
                                       microfacet(1, 0.4), 1.8),
                           ramp(1, 0.5)),
@@ -159,6 +165,10 @@ std::vector<Case> lossless_cases() {
   put("coat, white", fresnel_mix(matte(1), glossy(1, 40), ramp(1.6, 1.4)));
   put("coat of facets, white", fresnel_mix(matte(1), facets(0.4), ramp(1.6, 1.4)));
   put("coat of mirror, white", fresnel_mix(matte(1), mirror(1), 1.5));
+  put("film over facets, white",
+      film_mix(facets(0.6), facets(0.4), ramp(1.6, 1.4), 1.8, 400e-9, ramp(400e-9, 700e-9)));
+  put("film of mirror over matte, white",
+      film_mix(matte(1), mirror(1), 1.5, 1.38, 600e-9, ramp(400e-9, 700e-9)));
   put("coat over rough matte, white",
       fresnel_mix(tinted(Lobe::RoughMatte, 1, {0.5}), glossy(1, 9), 1.5));
   put("coat over facets, white", coat(mirror(1), conductor(1, 1e25, 0.4), 0.2, 0, ramp(1.6, 1.4)));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <iterator>
+#include <span>
 #include <string>
 
 #include "tests/unit/materials/albedo.h"
@@ -244,6 +245,59 @@ TEST_CASE("lossless lobes under two lossless coats keep their energy") {
     CHECK_MESSAGE(a.least > 1 - 1e-4, base.name);
     CHECK_MESSAGE(a.most < 1 + 1e-4, base.name);
     MESSAGE(base.name, " under two coats: albedo from ", a.least, " to ", a.most);
+  }
+}
+
+TEST_CASE("what lies under a film, and a coat under one, keeps its energy") {
+  struct Kind {
+    std::string name;
+    Material (*make)(double place);
+  };
+  const Kind round[] = {{"mirror", [](double) { return mirror(1); }},
+                        {"microfacet", [](double x) { return microfacet(1, 0.1 + 0.9 * x); }},
+                        {"glossy", [](double x) { return glossy(1, std::expm1(7 * x)); }}};
+  const Kind stretched{"stretched", [](double x) { return microfacet(1, 0.2 + 0.8 * x, 0.5); }};
+  const auto under_films = [](const Kind& base, std::span<const Kind> tops, double least,
+                              double most) {
+    Range a;
+    int k = 0;
+    for (const Kind& top : tops)
+      for (int n = 0; n < (kSanitized ? 1 : 12); ++n) {
+        ++k;
+        const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
+        const double degrees = kAngles[k % std::size(kAngles)];
+        const Material m =
+            film_mix(base.make(place(0.3019)), top.make(place(0.8192)),
+                     1.02 * std::pow(2.5 / 1.02, place(0.5497)), 1 + 1.5 * place(0.4503),
+                     least * std::pow(most / least, place(0.7549)), 5e-7);
+        a.add(albedo(m, degrees, 0, 16) + mirrored(m, degrees));
+      }
+    MESSAGE(base.name, " under a film of up to ", most * 1e6, " um: albedo from ", a.least, " to ",
+            a.most);
+    return a;
+  };
+  const Kind bases[] = {{"matte", [](double) { return matte(1); }},
+                        {"rough_matte", [](double x) { return tinted(Lobe::RoughMatte, 1, {x}); }},
+                        round[1],
+                        round[2],
+                        {"plastic under a coat", [](double x) {
+                           return fresnel_mix(microfacet(1, 0.1 + 0.9 * x), glossy(1, 30), 1.5);
+                         }}};
+  struct Thickness {
+    double least, most, bound;
+  };
+  // Of light of 500 nm.
+  for (const Thickness& t :
+       {Thickness{1e-8, 6e-7, 1e-4}, {6e-7, 1e-6, 3e-4}, {1e-6, 4e-6, 4e-3}, {4e-6, 1e-4, 1e-4}})
+    for (const Kind& base : bases) {
+      const Range a = under_films(base, round, t.least, t.most);
+      CHECK_MESSAGE(a.least > 1 - t.bound, base.name);
+      CHECK_MESSAGE(a.most < 1 + t.bound, base.name);
+    }
+  for (const Range& a : {under_films(bases[0], {&stretched, 1}, 1e-8, 1e-6),
+                         under_films(stretched, round, 1e-8, 1e-6)}) {
+    CHECK(a.least > 1 - 3e-2);
+    CHECK(a.most < 1 + 3e-2);
   }
 }
 

@@ -232,7 +232,9 @@ TEST_CASE("gloss towards infinity is the mirror, and is handed over to it withou
   const auto metal = [](double c) { return materials::fresnel_conductor(c, 0.2, 3.0); };
   const auto coloured = [](double c) { return 0.7 + 0.3 * std::pow(1 - c, 5); };
   const auto coated = [](double c) {
-    return materials::Film<double>(1.5, 3e-7, 5e-7).split(c, 1, {0.2, 3.0}).reflected;
+    return materials::Film<double>(1.5, 3e-7, 5e-7)
+        .split(c, 1, std::complex<double>(0.2, 3.0))
+        .reflected;
   };
   const auto all = [](double) { return 1.0; };
   // GGX of alpha 1e-4 leaves alpha^2 / tan^2 of its facets beyond an angle: 1e-4 beyond 0.01; that

@@ -79,17 +79,73 @@ TEST_CASE("what goes through a film has its digits in float, however little it i
           if (refraction_g2(c, std::abs(s.far) / s.near) < 0) continue;
           materials::Film<float> f(film, 0, 1);
           f.phases = phases;
-          const auto got = f.split(c, s.near, s.far);
           const Ld r = matrix_oracle(c, s.near, film, C(s.far), phases);
-          const double error = double(std::abs(got.transmitted - (1 - r)) / (1 - r));
-          const double error_r = double(std::abs(got.reflected - r));
-          worst = std::max(worst, error), worst_r = std::max(worst_r, error_r);
           // About forty roundings; those of the phase are turned `phases` film times.
           const double bound = 6e-8 * (40 + 2 * phases * film);
-          CHECK_MESSAGE(error < bound, s.near, " ", film, " ", phases, " ", c);
-          CHECK_MESSAGE(error_r < bound, s.near, " ", film, " ", phases, " ", c);
+          const auto check = [&](const materials::FresnelSplit<float>& got) {
+            const double error = double(std::abs(got.transmitted - (1 - r)) / (1 - r));
+            const double error_r = double(std::abs(got.reflected - r));
+            worst = std::max(worst, error), worst_r = std::max(worst_r, error_r);
+            CHECK_MESSAGE(error < bound, s.near, " ", film, " ", phases, " ", c);
+            CHECK_MESSAGE(error_r < bound, s.near, " ", film, " ", phases, " ", c);
+          };
+          check(f.split(c, s.near, s.far));
+          if (s.far.imag() == 0) check(f.split(c, s.near, s.far.real()));
         }
   MESSAGE("largest error of what is transmitted, relative, ", worst, "; reflected, ", worst_r);
+}
+
+TEST_CASE("films of all thicknesses reflect and transmit as their mean") {
+  double worst = 0;
+  for (float c : {1e-3f, 0.1f, 0.5f, 0.9f, 1.0f})
+    for (float film : {1.0f, 1.38f, 2.2f})
+      for (float ior : {1.0001f, 1.2f, 1.5f, 2.5f}) {
+        const double n = film, g = std::sqrt((n - 1) * (n + 1) + double(c) * c);
+        constexpr int kPhases = 4096;
+        double mean = 0;
+        for (int i = 0; i < kPhases; ++i)
+          mean += double(matrix_oracle(c, 1, film, ior, kPi<double> * (i + 0.5) / kPhases / g)) /
+                  kPhases;
+        const auto got = materials::Film<double>(film, 1, 1).mean_split(c, ior);
+        const auto in_float = materials::Film<float>(film, 1, 1).mean_split(c, ior);
+        worst = std::max(worst, std::abs(got.reflected - mean));
+        CHECK_MESSAGE(std::abs(got.reflected - mean) < 1e-10, c, " ", film, " ", ior);
+        CHECK(std::abs(got.reflected + got.transmitted - 1) < 1e-14);
+        CHECK(std::abs(in_float.reflected - mean) < 3e-6);
+      }
+  MESSAGE("largest error ", worst);
+}
+
+TEST_CASE("a polished film_mix reflects as characteristic matrices say") {
+  const auto lambda = ramp(380e-9, 780e-9);
+  for (double degrees : {0.0, 40.0, 70.0, 89.0})
+    for (double thickness : {50e-9, 120e-9, 400e-9})
+      for (double film : {1.0, 1.38, 2.2})
+        for (double ior : {1.2, 1.5, 2.5}) {
+          const Vec3d wo = direction(degrees, 0.4);
+          const auto seen =
+              weights(film_mix(matte(0), mirror(1), ior, film, thickness, lambda), wo, true);
+          for (int j = 0; j < kWavelengths; ++j) {
+            const double phases = 2 * kPi<double> * thickness / lambda[j];
+            CHECK(std::abs(seen[j] - double(matrix_oracle(wo.z, 1, film, ior, phases))) < 1e-11);
+          }
+        }
+}
+
+TEST_CASE("a film that is not there is none") {
+  for (const Material& base : {matte(0.7), microfacet(0.7, 0.4), dielectric(1.5, 0.4)})
+    for (const Material& top : {mirror(1), microfacet(1, 0.3), glossy(1, 30)}) {
+      const Material none = film_mix(base, top, 1.5, 1.38, 0, 5e-7),
+                     bare = fresnel_mix(base, top, 1.5);
+      const materials::Layout a = none.layout(), b = bare.layout();
+      const auto p = none.params<double>(), q = bare.params<double>();
+      for (double degrees : {10.0, 60.0, 88.0, 130.0})
+        CHECK(Bsdf<double>(a, p.data())
+                  .eval(direction(degrees, 0), direction(35, 1), Mode::Radiance)
+                  .v == Bsdf<double>(b, q.data())
+                            .eval(direction(degrees, 0), direction(35, 1), Mode::Radiance)
+                            .v);
+    }
 }
 
 TEST_CASE("a quarter wave of the root of the index does not reflect") {

@@ -150,6 +150,14 @@ Material henyey_greenstein(double g) { return node(Lobe::HenyeyGreenstein, {}, {
 
 Material mix(Material a, Material b, Value t) { return node(Lobe::Mix, {a, b}, {t}); }
 
+Material film_mix(Material base, Material coat, Value ior, Value film, double thickness,
+                  Value wavelength) {
+  Material m = node(Lobe::FilmMix, {base, coat}, {ior, film}, {thickness});
+  m.tree.nodes.back().params.resize(4);
+  m.numbers.insert(m.numbers.end(), wavelength.s.v.begin(), wavelength.s.v.end());
+  return m;
+}
+
 Material fresnel_mix(Material base, Material coat, Value ior) {
   return node(Lobe::FresnelMix, {base, coat}, {ior});
 }

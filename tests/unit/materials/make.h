@@ -68,6 +68,8 @@ Material draine(double g, double a);
 Material henyey_greenstein(double g);
 Material mix(Material a, Material b, Value t);
 Material fresnel_mix(Material base, Material coat, Value ior);
+Material film_mix(Material base, Material coat, Value ior, Value film, double thickness,
+                  Value wavelength);
 Material scale(Material a, Value t);
 Material layer(Material top, Material base, double weight = 1);
 Material add(Material a, Material b);

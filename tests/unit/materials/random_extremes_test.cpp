@@ -95,6 +95,8 @@ Material any_child(bool layered, stats::Random& random) {
       Material m = fresnel_mix(y > 0 ? matte(1) : tinted(Lobe::RoughMatte, 1, {x}),
                                y > 0 ? microfacet(1, x) : glossy(1, gloss),
                                1 + std::abs(any_number(random)));
+      if (gloss < 1)
+        m = film_mix(m, microfacet(1, x), 1 + std::abs(y), any_number(random), gloss * 1e-6, 5e-7);
       for (int more = x < 0.1 ? 8 : 0; more > 0; --more)
         m = coat(microfacet(1, x), m, 0, 0, 1 + std::abs(any_number(random)));
       return m;
