@@ -58,17 +58,6 @@ spectrum openpbr_darkening(spectrum colour, real coat_ior, amount)
     inside = 1.0 - (1.0 - (n - 1.0) / (4.08567 + 1.00071 * n)) / (n * n);
     return 1.0 + amount * ((1.0 - inside) / (1.0 - inside * clamp(colour, 0.0, 1.0)) - 1.0);
 
-/// The index, by wavelength, that reflects at normal incidence what `ior` does under a film of
-/// `thickness` in metres and index `film_ior`, as far as `weight`.
-/// >>> openpbr_filmed(1.5, 0.0, 300nm, 1.4)
-/// 1.5
-/// >>> openpbr_filmed(1.5, 1.0, 0.0, 1.4)
-/// 1.5
-spectrum openpbr_filmed(real ior, weight, thickness, film_ior)
-    shown = thin_film(1.0, thickness, film_ior, ior + 0i);
-    root  = sqrt(clamp(mix(spectrum(fresnel(1.0, ior)), shown, saturate(weight)), 0.0, 0.999));
-    return select spectrum(ior), if weight <= 0.0; (1.0 + root) / (1.0 - root) otherwise; end;
-
 /// OpenPBR's metal: `colour` is its reflectance at normal incidence, `edge` the tint at 82 degrees, 1
 /// for none. A film of `film_weight` and `thickness` in metres may lie on it, above the complex
 /// index of those two colours (Gulbrandsen 2014).
@@ -178,8 +167,7 @@ openpbr_medium openpbr_inside(
 ///
 /// Weights of what is specular, and of the coat, are indices (`openpbr_index`), fuzz is a `layer` of
 /// `sheen`; subsurface is entered and left like a `translucent` under the facets, which is what
-/// `subsurface_color` is fitted for, and not bent; a film on rough glass is smooth, and one on an
-/// opaque base has the colours of normal incidence everywhere.
+/// `subsurface_color` is fitted for, and not bent; a film on rough glass is smooth.
 /// >>> openpbr(base_color = 0.5, base_metalness = 1.0)
 /// >>> openpbr(base_color = rgb(0.6, 0.05, 0.02), coat_weight = 1.0)
 material openpbr(
@@ -220,11 +208,15 @@ material openpbr(
         translucent(1.0) otherwise;
     end;
     below  = openpbr_index_below(specular_ior, specular_weight, coat_ior, coat_weight);
-    opaque = fresnel_mix(
-        mix(diffuse, deep, saturate(subsurface_weight)),
-        openpbr_gloss(specular_color, specular_roughness, specular_roughness_anisotropy),
-        openpbr_filmed(below, thin_film_weight, film, thin_film_ior)
-    );
+    within = mix(diffuse, deep, saturate(subsurface_weight));
+    gloss  = openpbr_gloss(specular_color, specular_roughness, specular_roughness_anisotropy);
+    bare   = fresnel_mix(within, gloss, below);
+    filmed = film_mix(within, gloss, below, thin_film_ior, film, $wavelength);
+    opaque = select
+        bare, if thin_film_weight <= 0.0;
+        filmed, if thin_film_weight >= 1.0;
+        mix(bare, filmed, thin_film_weight) otherwise;
+    end;
 
     tint = select transmission_color, if transmission_depth <= 0.0; spectrum(1.0) otherwise; end;
     bent = select

@@ -123,6 +123,12 @@ TEST_CASE("openpbr: its lossless settings keep all light") {
         {"thin_film_weight", "1"},
         {"thin_film_ior", "1.33"}},
        1e-5},
+      {"film on rough plastic",
+       {{"base_color", "spectrum(1.0)"}, {"thin_film_weight", "1"}, {"thin_film_ior", "1.9"}},
+       3e-4},
+      {"half a film on rough plastic, varnished",
+       {{"base_color", "spectrum(1.0)"}, {"thin_film_weight", "0.5"}, {"coat_weight", "1"}},
+       3e-4},
   };
   const std::size_t count = kSanitized ? 1024 : 16384;
   for (const auto& c : cases) {
