@@ -133,7 +133,7 @@ TEST_CASE("where tiles with few and many samples meet, filters keep their shape"
 TEST_CASE("each tile is that of an even picture of as many samples, bit by bit") {
   GlassBall ball;
   RenderOptions& o = ball.options;
-  o.error = kSanitized ? 0.08 : 0.04;
+  o.error = 0.04;
   const Rendered uneven = ball.render(o);
   CHECK(uneven.report.error_reached);
   CHECK(uneven.report.rmse <= o.error);
@@ -167,7 +167,7 @@ TEST_CASE("an uneven picture has the same bits on any threads, and through any n
   GlassBall ball;
   RenderOptions& o = ball.options;
   o.filter = FilterShape::BlackmanHarris;
-  o.error = kSanitized ? 0.08 : 0.03;
+  o.error = 0.03;
   const Rendered whole = ball.render(o);
   for (const int threads : {1, 3}) {
     o.threads = threads;

@@ -218,9 +218,11 @@ TEST_CASE("thesis Figure 3.3: a smooth integral in 2D and one with jumps in 4D, 
   const int last = mms::kSanitized ? 10 : 14;
   const double random2 = slope(Generator::Random, 4, last, smooth);
   const double random4 = slope(Generator::Random, 4, last, jumps);
-  // 32 pixels leave an error's logarithm within 1 / sqrt(64) = 18 % of a factor e: 0.1 of slope.
-  CHECK(std::abs(random2 + 0.5) < 0.1);
-  CHECK(std::abs(random4 + 0.5) < 0.1);
+  // 32 pixels leave an error's logarithm within 1 / sqrt(64) = 18 % of a factor e: 0.1 of slope; 8
+  // twice as much.
+  constexpr double kChance = mms::kSanitized ? 0.2 : 0.1;
+  CHECK(std::abs(random2 + 0.5) < kChance);
+  CHECK(std::abs(random4 + 0.5) < kChance);
   for (const Generator g : {Generator::Niederreiter, Generator::Sobol}) {
     const double smooth_slope = slope(g, 4, last, smooth);
     const double jumps_slope = slope(g, 7, last, jumps);
