@@ -83,17 +83,8 @@ struct Face {
 
   FresnelSplit<R> split(R z) const {
     if (!film.there()) return fresnel_split(z, eta);
-    if (!(refraction_g2(z, eta) > 0)) return {R(1), R(0)};
-    const R more = film.fringes() - 1;
-    if (!(more > 0)) return film.split(z, R(1), eta);
-    const R contrast = std::exp(-more * more);
-    FresnelSplit<R> f = film.mean_split(z, eta);
-    if (contrast > R(1e-4)) {
-      const FresnelSplit<R> sharp = film.split(z, R(1), eta);
-      f.reflected += contrast * (sharp.reflected - f.reflected);
-      f.transmitted += contrast * (sharp.transmitted - f.transmitted);
-    }
-    return f;
+    const R more = std::max(film.fringes - 1, R(0));
+    return film.faded_split(z, eta, more > 0 ? std::exp(-more * more) : R(1));
   }
   R reflected(R z) const { return split(z).reflected; }
 
@@ -103,7 +94,7 @@ struct Face {
     return R(integrate<4>([this](double x) { return double(reflected(R(std::sqrt(x)))); }, 0, 1));
   }
   /// Rules that see each fringe of a film that is left.
-  int parts() const { return 2 + int(std::min(film.fringes(), R(4))); }
+  int parts() const { return 2 + int(std::min(film.fringes, R(4))); }
 };
 
 namespace held {
@@ -202,9 +193,10 @@ struct CoatNumbers {
     for_each_index(ior, [&](int j, bool same_index) {
       const bool repeated = same_index && films[j] == films[j - 1];
       eta[j] = repeated ? eta[j - 1] : relative_eta(ior[j], Vec3<R>{0, 0, 1});
-      // Under a film an index of 1 is a coat like others.
+      // Under a film an index of 1 is a coat like others; on one below there is no film.
       constexpr R next = R(1e-4);
-      if (films[j].there() && std::abs(eta[j] - 1) < next) eta[j] = 1 + next;
+      if (films[j].there() && eta[j] < 1 - next) films[j] = {};
+      if (films[j].there()) eta[j] = std::max(eta[j], 1 + next);
       mean[j] = repeated ? mean[j - 1] : face(j).mean();
       const bool same =
           repeated && held[j] == held[j - 1] && even[j] == even[j - 1] && least[j] == least[j - 1];

@@ -105,7 +105,7 @@ template <class R>
 inline Films<R> films(const R* p) {
   Films<R> films;
   for (int j = 0; j < kWavelengths; ++j)
-    films[j] = {p[j], p[kWavelengths], p[kWavelengths + 1 + j]};
+    films[j] = {std::max(R(1), p[j]), p[kWavelengths], p[kWavelengths + 1 + j]};
   return films;
 }
 

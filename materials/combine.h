@@ -39,10 +39,10 @@
 /// then solved for (materials/under_coats.h), however many there are, within 1e-4; where facets of
 /// anisotropy 0.9 are part of two, 3e-4. A coat whose index is 1 at every wavelength is not there.
 ///
-/// Under a film, of `film_mix(base, coat, ior, film_ior, thickness, wavelength)`, E is what film and
-/// interface reflect (materials/coat.h), and g and h are solved for too. Mattes, round facets and
-/// `glossy` in it and under it keep their energy within 1e-4 where it is up to 1.2 waves thick, 3e-4
-/// up to 2, 4e-3 up to 8 and 1e-4 above; stretched facets, for which it is taken for a bare
+/// Under a film, of `film_mix(base, coat, ior, film_ior, thickness, wavelength)`, E is what film
+/// and interface reflect (materials/coat.h), and g and h are solved for too. Mattes, round facets
+/// and `glossy` in it and under it keep their energy within 1e-4 where it is up to 1.2 waves thick,
+/// 3e-4 up to 2, 4e-3 up to 8 and 1e-4 above; stretched facets, for which it is taken for a bare
 /// interface that reflects as much along the normal, within 3e-2. Interfaces below it get min(T,
 /// T').
 ///

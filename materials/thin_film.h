@@ -17,20 +17,18 @@ namespace mms::materials {
 /// Lengths of one wavelength.
 template <class R>
 struct Film {
-  R ior = 1;     ///< of the film
-  R phases = 0;  ///< 2 pi thickness / wavelength
+  R ior = 1;      ///< of the film
+  R phases = 0;   ///< 2 pi thickness / wavelength
+  R fringes = 0;  ///< between the normal and grazing, seen from outside (index 1)
 
   Film() = default;
   Film(R index, R thickness, R wavelength) : ior(index > 0 ? limited(index, R(0.1), R(10)) : R(1)) {
     // Beyond 1e4 wavelengths nothing interferes, and the phase would have no digits.
     const R turns = non_negative(thickness) / (wavelength > 0 ? wavelength : R(550e-9));
     phases = 2 * kPi<R> * limited(turns, R(0), R(1e4));
+    fringes = phases * (ior - std::sqrt(std::max((ior - 1) * (ior + 1), R(0)))) / kPi<R>;
   }
 
-  /// Fringes between the normal and grazing, seen from outside (index 1).
-  R fringes() const {
-    return phases * (ior - std::sqrt(std::max((ior - 1) * (ior + 1), R(0)))) / kPi<R>;
-  }
   /// Whether there is one.
   bool there() const { return phases > 0; }
   bool operator==(const Film&) const = default;
@@ -65,27 +63,28 @@ struct Film {
     return {limited(sum.reflected, R(0), R(1)), limited(sum.transmitted, R(0), R(1))};
   }
 
-  /// The mean of that over films of all thicknesses, between outside and a real `far`: over b,
-  ///   mean of (A cos^2 b + B sin^2 b) / (C cos^2 b + D sin^2 b)
-  ///     = (A / sqrt C + B / sqrt D) / (sqrt C + sqrt D).
-  /// Where the film reflects totally it is as thick as it is.
-  FresnelSplit<R> mean_split(R c, R far) const {
-    const R film2 = normal_square(c, R(1), ior);
-    if (!(film2 > 0)) return split(c, R(1), far);
-    const R g2 = std::sqrt(film2), g3 = root(normal_square(c, R(1), far));
-    FresnelSplit<R> sum{R(0), R(0)};
-    const auto add = [&](R square, R far_square) {
-      const R y2 = g2 / square, y3 = g3 / far_square, odd = c * y3 / y2;
-      const R even_sum = c + y3, odd_sum = odd + y2;  // sqrt C, sqrt D
-      const R even = c - y3;
-      sum.reflected +=
-          (even * even / even_sum + (odd - y2) * (odd - y2) / odd_sum) / (even_sum + odd_sum) / 2;
-      sum.transmitted += 2 * c * y3 / (even_sum * odd_sum);
-    };
+  /// The same between outside and a real `far`, but of fringes as `contrast` in [0, 1] has them: of
+  /// 0 it is the mean over films of all thicknesses, so over b. Of each polarisation,
+  ///   (A cos^2 b + B sin^2 b) / (C cos^2 b + D sin^2 b)
+  /// has the mean (A / sqrt C + B / sqrt D) / (sqrt C + sqrt D).
+  /// \pre neither the film's index nor `far` is below 1
+  FresnelSplit<R> faded_split(R c, R far, R contrast) const {
     if (!(c > 0)) return {R(1), R(0)};
-    add(R(1), R(1));
-    add(ior * ior, far * far);
-    return sum;
+    const R g2 = std::sqrt(normal_square(c, R(1), ior)), g3 = root(normal_square(c, R(1), far));
+    const R cosine2 = (1 + std::cos(2 * phases * g2)) / 2, sine2 = 1 - cosine2;
+    FresnelSplit<R> sum{R(0), R(0)};
+    const auto add = [&](R y2, R y3) {
+      const R odd = c * y3 / y2, root_c = c + y3, root_d = odd + y2;
+      const R a = (c - y3) * (c - y3), b = (odd - y2) * (odd - y2);
+      const R sharp = contrast / (root_c * root_c * cosine2 + root_d * root_d * sine2);
+      const R faded = (1 - contrast) / (root_c * root_d);
+      sum.reflected += (a * cosine2 + b * sine2) * sharp / 2 +
+                       (a * root_d + b * root_c) * faded / (root_c + root_d) / 2;
+      sum.transmitted += 2 * c * y3 * (sharp + faded);
+    };
+    add(g2, g3);
+    add(g2 / (ior * ior), g3 / (far * far));
+    return {std::min(sum.reflected, R(1)), std::min(sum.transmitted, R(1))};
   }
 
  private:

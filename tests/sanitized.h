@@ -2,8 +2,9 @@
 #pragma once
 
 /// \file
-/// Whether this is a build under the address or the thread sanitizer, which find bad memory accesses
-/// and races, and take ten to a hundred times as long: tests may then do the same with fewer samples or lanes.
+/// Whether this is a build under the address or the thread sanitizer, which find bad memory
+/// accesses and races, and take ten to a hundred times as long: tests may then do the same with
+/// fewer samples or lanes.
 
 namespace mms {
 
