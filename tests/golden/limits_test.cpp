@@ -11,6 +11,7 @@
 #include "stdlib/stdlib.h"
 #include "tests/golden/corpus.h"
 #include "tests/golden/evaluate.h"
+#include "tests/sanitized.h"
 #include "tests/source_dir.h"
 #include "vm/limits.h"
 
@@ -50,6 +51,7 @@ std::string fault_of(const Compiled& c) {
 }
 
 TEST_CASE("each limit is kept by one script and broken by another, which is told") {
+  if (kThreadSanitized) return;
   for (const Limit& l : limit_scripts()) {
     CAPTURE(l.name);
     {
@@ -118,6 +120,7 @@ TEST_CASE("bytes of a source") {
 }
 
 TEST_CASE("operations after inlining") {
+  if (kThreadSanitized) return;
   // Each function calls the one before twice: 2^n sums of something nobody knows.
   auto doubling = [](int n) {
     std::string text = "real f0(real x) = sin(x + $time);\n";
