@@ -85,7 +85,7 @@ TEST_CASE("single scattering in a slab: sigma_s E p (1 - exp(-sigma d (1 + 1/c))
     {{"disc": {{"center": [{0}, 0, {1}], "normal": [{2}, 0, {3}], "radius": {4}}},
       "surface": "lamp"}}]}})",
                      far * std::sqrt(0.75), far * c, -std::sqrt(0.75), -c, radius));
-  RenderOptions o = options(32, samples(256));
+  RenderOptions o = options(32, kSanitized ? 64 : 256);
   o.max_depth = 1;
   const Rendered r = run(p, s, o);
   const double omega = kPi<double> * radius * radius / (far * far);
@@ -99,7 +99,7 @@ TEST_CASE("single scattering in a slab: sigma_s E p (1 - exp(-sigma d (1 + 1/c))
   INFO("mean ", m.value, " +- ", m.error, ", expected ", expected);
   // The lamp is 0.02 rad wide: its mean direction and cosine err by its square, 4e-4 relative.
   CHECK(std::abs(m.value - expected) < 4 * m.error + 1e-3 * expected);
-  CHECK(m.error < (kSanitized ? 0.02 : 0.01) * expected);
+  CHECK(m.error < 0.01 * expected);
 }
 
 TEST_CASE("a thin medium is as bright as single scattering says, but for the square of its depth") {

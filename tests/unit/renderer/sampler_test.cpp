@@ -186,7 +186,7 @@ namespace {
 /// the root mean square over independent pixels of an integral over [-1, 1]^4 that is 0, as a mean.
 template <class F>
 double slope(Generator generator, int first, int last, F f) {
-  constexpr int kPixels = mms::kSanitized ? 8 : 32;
+  constexpr int kPixels = 32;
   std::vector<double> squares(std::size_t(last) + 1, 0.0);
   for (int pixel = 0; pixel < kPixels; ++pixel) {
     double sum = 0;
@@ -218,11 +218,9 @@ TEST_CASE("thesis Figure 3.3: a smooth integral in 2D and one with jumps in 4D, 
   const int last = mms::kSanitized ? 10 : 14;
   const double random2 = slope(Generator::Random, 4, last, smooth);
   const double random4 = slope(Generator::Random, 4, last, jumps);
-  // 32 pixels leave an error's logarithm within 1 / sqrt(64) = 18 % of a factor e: 0.1 of slope; 8
-  // twice as much.
-  constexpr double kChance = mms::kSanitized ? 0.2 : 0.1;
-  CHECK(std::abs(random2 + 0.5) < kChance);
-  CHECK(std::abs(random4 + 0.5) < kChance);
+  // 32 pixels leave an error's logarithm within 1 / sqrt(64) = 18 % of a factor e: 0.1 of slope.
+  CHECK(std::abs(random2 + 0.5) < 0.1);
+  CHECK(std::abs(random4 + 0.5) < 0.1);
   for (const Generator g : {Generator::Niederreiter, Generator::Sobol}) {
     const double smooth_slope = slope(g, 4, last, smooth);
     const double jumps_slope = slope(g, 7, last, jumps);
