@@ -28,6 +28,11 @@ bool asked(const Case& c) {
   return !only || c.name.starts_with(only);
 }
 
+/// Sanitized builds take each case along every third direction.
+bool left_out(std::ptrdiff_t index, std::ptrdiff_t direction) {
+  return kSanitized && (index + direction) % 3 != 0;
+}
+
 /// Where the density of the hero jumps besides the horizon, as `ChiSquareTest::jumps`: phong_glass
 /// draws from both sides where both have a direction, and beyond the critical angle from one.
 std::vector<double> jumps(const Material& m) {
@@ -53,7 +58,9 @@ void check_samples_follow(const std::vector<Case>& cases, std::span<const double
     const auto p64 = hero_only(c.material).params<double>();
     const Bsdf<float> sampled(layout, p32.data());
     const Bsdf<double> exact(layout, p64.data());
-    for (double degrees : all_degrees) {
+    for (const double& degrees : all_degrees) {
+      ++seed;
+      if (left_out(&c - cases.data(), &degrees - all_degrees.data())) continue;
       const Vec3<float> wo(direction(degrees, 0.7));
       const Vec3d wo_exact = normalize(Vec3d(wo));
       const auto choice = sampled.choose(wo);
@@ -70,7 +77,7 @@ void check_samples_follow(const std::vector<Case>& cases, std::span<const double
                  return exact.evaluate(wo_exact, wi, Mode::Radiance, choice_exact).pdf[0];
                },
            .jumps = jumps(c.material),
-           .seed = ++seed});
+           .seed = seed});
       worst = std::min(worst, r.p_value);
       CHECK_MESSAGE(r.passed(level), c.name, " at ", degrees, ": ", r.report());
     }
@@ -152,18 +159,19 @@ TEST_CASE("a sample reports what eval and pdf say, and its mean weight is the al
   std::uint64_t seed = 1000;
   double least = 1;
   for (const Case& c : cases) {
-    const auto index = &c - cases.data();
-    if (!asked(c) || (kSanitized && index % 3)) {
+    if (!asked(c)) {
       seed += std::size(kDegrees);
       continue;
     }
     const materials::Layout layout = c.material.layout();
     const auto p = c.material.params<double>(), p_hero = hero_only(c.material).params<double>();
     const Bsdf<double> bsdf(layout, p.data()), hero(layout, p_hero.data());
-    for (double degrees : kDegrees) {
+    for (const double& degrees : kDegrees) {
+      ++seed;
+      if (left_out(&c - cases.data(), &degrees - kDegrees.data())) continue;
       const Vec3d wo = direction(degrees, 0.7);
       const auto choice = bsdf.choose(wo);
-      stats::Random random(++seed);
+      stats::Random random(seed);
       stats::Moments drawn;
       Vec3d peak[2] = {direction(100, 1), direction(80, 1)};  // only to place cells
       double most[2] = {0, 0};
