@@ -194,9 +194,8 @@ struct CoatNumbers {
       const bool repeated = same_index && films[j] == films[j - 1];
       eta[j] = repeated ? eta[j - 1] : relative_eta(ior[j], Vec3<R>{0, 0, 1});
       // Under a film an index of 1 is a coat like others; on one below there is no film.
-      constexpr R next = R(1e-4);
-      if (films[j].there() && eta[j] < 1 - next) films[j] = {};
-      if (films[j].there()) eta[j] = std::max(eta[j], 1 + next);
+      if (films[j].there() && eta[j] < 1 - kNextToOne) films[j] = {};
+      if (films[j].there()) eta[j] = std::max(eta[j], 1 + kNextToOne);
       mean[j] = repeated ? mean[j - 1] : face(j).mean();
       const bool same =
           repeated && held[j] == held[j - 1] && even[j] == even[j - 1] && least[j] == least[j - 1];
@@ -209,9 +208,9 @@ struct CoatNumbers {
   /// The index of a bare interface that reflects as much along the normal.
   R bare(int j) const {
     if (!films[j].there()) return eta[j];
-    constexpr R most = R(0.9), next = R(1e-4);
+    constexpr R most = R(0.9);
     const R root = std::sqrt(std::min(face(j).reflected(R(1)), most));
-    return std::max((1 + root) / (1 - root), 1 + next);
+    return std::max((1 + root) / (1 - root), 1 + kNextToOne);
   }
   /// Whether a film is part of it at some wavelength.
   bool filmed() const {
@@ -249,6 +248,8 @@ struct CoatNumbers {
   }
 
  private:
+  static constexpr R kNextToOne = R(1e-4);  ///< how near films let an index be
+
   std::bitset<kWavelengths> repeated_;
 
   void find_repeated() {

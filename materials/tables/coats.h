@@ -21,15 +21,6 @@ inline double cosine_at(double place) {
   return std::sin(place * place * place * place * kPi<double> / 2);
 }
 
-/// Numbers in (0, 1) and weights that crowd at both ends; `offset` in (0, 1) of a step.
-template <class F>
-void crowded(int n, double offset, const F& f) {
-  for (int k = 0; k < n; ++k) {
-    const double u = (k + offset) / n;
-    f(u * u * (3 - 2 * u), 6 * u * (1 - u) / n);
-  }
-}
-
 /// The slope that a share `u` of facets of width 1 does not exceed.
 inline double slope(const Ggx<double>&, double u) { return std::sqrt(u / (1 - u)); }
 inline double slope(const Beckmann<double>&, double u) { return std::sqrt(-std::log1p(-u)); }

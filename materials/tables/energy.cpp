@@ -22,18 +22,16 @@ std::vector<float> write(const TableFiles& to, const std::string& name, const Gr
 
 /// Mean over the hemisphere in units of mean_unit of what the tables say, so that what is given
 /// back sums to what they say is lost; z^2 + alpha^2 spread evenly over its logarithm, or crowded
-/// about z = `ridge`.
+/// about z = `ridge`. Of twelve azimuths, or one where all are alike.
 template <class Loss>
-double mean_loss(const Loss& loss, double alpha2, int azimuths, double ridge = 0) {
+double mean_loss(const Loss& loss, double alpha2, double ridge = 0) {
   const double log = std::log1p(1 / alpha2), at = std::log1p(ridge * ridge / alpha2) / log;
-  double sum = 0;
-  for (int i = 0; i < azimuths; ++i) {
-    const double phi = (i + 0.5) / azimuths * kPi<double> / 2;
+  return quarter_mean(loss.ax / loss.ay, loss.ax > loss.ay ? 12 : 1, [&](double x, double y) {
     const auto f = [&](double u) {
       const double z2 = std::min(1.0, alpha2 * std::expm1(u * log)), s = std::sqrt(1 - z2);
-      const Vec3d w{s * std::cos(phi), s * std::sin(phi), std::sqrt(z2)};
-      return loss.at(w) * (z2 / alpha2 + 1);
+      return loss.at({s * x, s * y, std::sqrt(z2)}) * (z2 / alpha2 + 1);
     };
+    double sum = 0;
     const auto panels = [&sum](const auto& g, int n) {
       for (int k = 0; k < n; ++k) sum += integrate<8>(g, double(k) / n, (k + 1.0) / n);
     };
@@ -43,8 +41,8 @@ double mean_loss(const Loss& loss, double alpha2, int azimuths, double ridge = 0
       for (const double reach : {-at, 1 - at})
         panels([&](double t) { return 3 * std::abs(reach) * t * t * f(at + reach * t * t * t); },
                16);
-  }
-  return sum / azimuths;
+    return sum;
+  });
 }
 
 /// Where the losses of an interface have their ridge: the cosine of the critical angle, or 0.
@@ -91,7 +89,7 @@ RoundInterface write_round_interface(const TableFiles& to, const std::string& na
   round.mean =
       write(to, name + "Mean", Grid({kInterfaceMean, kIndex[!rising]}, [&](const double* x) {
               const double a = from_log(x[0]), eta = index_at(x[1], rising);
-              return mean_loss(InterfaceLoss<double>{&tables, a, a, eta}, a * a, 1, ridge_of(eta));
+              return mean_loss(InterfaceLoss<double>{&tables, a, a, eta}, a * a, ridge_of(eta));
             }));
   return round;
 }
@@ -159,8 +157,7 @@ void write_stretched_interface(const TableFiles& to, const std::string& name, bo
           const double eta = bent_index_at(x[2], rising), a2 = alpha * alpha;
           const InterfaceLoss<double> like{&tables, alpha, alpha, eta},
               loss{&tables, wide, narrow, eta};
-          return mean_loss(loss, a2, wide > narrow ? 8 : 1, ridge_of(eta)) * mean_unit(a2) /
-                 like.mean();
+          return mean_loss(loss, a2, ridge_of(eta)) * mean_unit(a2) / like.mean();
         }));
 }
 
@@ -196,12 +193,12 @@ void write_facets(const TableFiles& to, const std::string& name) {
   const FacetTables tables{round.data(), nullptr, stretched.data(), nullptr};
   write(to, name + "Mean", Grid({kMean}, [&](const double* x) {
           const double a = from_log(x[0]);
-          return mean_loss(FacetLoss<double>{&tables, a, a}, a * a, 1);
+          return mean_loss(FacetLoss<double>{&tables, a, a}, a * a);
         }));
   write(to, name + "StretchedMean", Grid({kStretchedMean, kMeanAspect}, [&](const double* x) {
           const double alpha = from_log(x[0]), wide = alpha * std::pow(10, x[1] / 2 + 1e-9);
           const double narrow = alpha * alpha / wide;
-          return mean_loss(FacetLoss<double>{&tables, wide, narrow}, alpha * alpha, 24);
+          return mean_loss(FacetLoss<double>{&tables, wide, narrow}, alpha * alpha);
         }));
 }
 

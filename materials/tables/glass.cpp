@@ -134,11 +134,9 @@ Parts<Inside, Count> further(const Facets& facets, double glass) {
     const double u = (n / 8 + gauss<8>().x[n % 8]) / panels;
     const double z2 = std::min(1.0, a2 * std::expm1(u * log)), z = std::sqrt(z2),
                  s = std::sqrt(1 - z2);
-    double l = 0;
-    for (int k = 0; k < turns; ++k) {
-      const double turn = (k + 0.5) / turns * kPi<double> / 2;
-      l += outside.at({s * std::cos(turn), s * std::sin(turn), z}) / turns;
-    }
+    const double l = quarter_mean(facets.ax / facets.ay, turns, [&](double x, double y) {
+      return outside.at({s * x, s * y, z});
+    });
     const double share = l * (z2 + a2) * gauss<8>().w[n % 8];
     sum += Parts<Inside, Count>::lacks(z) * share;
     all += share;

@@ -31,6 +31,21 @@ double cosine(double place, const Axis& axis) {
   return std::sin(lo * kPi<double> / 2);
 }
 
+/// Mean over a quarter of a turn of `f(x, y)`, (x, y) of unit length and x along the wider axis of
+/// facets of that quotient of both widths: by `n` directions that crowd a little about the narrower
+/// one, where losses change fastest.
+template <class F>
+double quarter_mean(double aspect, int n, const F& f) {
+  const double crowding = std::pow(aspect, 0.2);
+  double sum = 0;
+  for (int i = 0; i < n; ++i) {
+    const double turn = (i + 0.5) / n * kPi<double> / 2;
+    const double x = std::cos(turn), y = crowding * std::sin(turn), length = std::hypot(x, y);
+    sum += f(x / length, y / length) * (crowding / (length * length));
+  }
+  return sum / n;
+}
+
 /// The loss of one bounce off lossless facets.
 template <class Facets>
 double loss(const Facets& facets, Vec3d wo, int angles = kAngles) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -108,18 +107,16 @@ class Lobe {
     double x, y, share;
   };
 
-  /// Over slopes as polar coordinates; a lattice, as in materials/tables/spread.h.
+  /// Over slopes as polar coordinates, by a lattice of Fibonacci's. Slopes crowd at both ends so
+  /// much that what is summed falls to 0 there, also what grows as a slope of GGX.
   std::vector<Facet> all_facets() const {
-    constexpr int kSlopes = 192, kAngles = 192;
+    constexpr int kFacets = 10946, kStep = 6765;  // Fibonacci's numbers
     std::vector<Facet> all;
-    for (int k = 0; k < kAngles; ++k) {
-      const double phi = 2 * kPi<double> * (k + 0.5) / kAngles;
-      const double offset = std::fmod((k + 0.5) * std::numbers::phi, 1.0);
-      const double cx = facets_.ax * std::cos(phi), cy = facets_.ay * std::sin(phi);
-      crowded(kSlopes, offset, [&](double u, double weight) {
-        const double r = slope(facets_, u);
-        all.push_back({r * cx, r * cy, weight});
-      });
+    for (int k = 0; k < kFacets; ++k) {
+      const double t = (k + 0.5) / kFacets, u = t * t * t * (10 - t * (15 - 6 * t));
+      const double phi = 2 * kPi<double> * (k * kStep % kFacets) / kFacets;
+      const double r = slope(facets_, u), weight = 30 * (t * (1 - t)) * (t * (1 - t)) / kFacets;
+      all.push_back({r * facets_.ax * std::cos(phi), r * facets_.ay * std::sin(phi), weight});
     }
     return all;
   }
