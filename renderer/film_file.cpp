@@ -54,7 +54,7 @@ class Reader {
       rest_ = {};
       return;
     }
-    std::memcpy(to, rest_.data(), size);
+    std::copy_n(rest_.data(), size, static_cast<char*>(to));  // of none, `to` may be null
     rest_.remove_prefix(size);
   }
   std::size_t left() const { return rest_.size(); }
