@@ -101,6 +101,13 @@ std::vector<Case> narrow_cases() {
 
 }  // namespace
 
+TEST_CASE("samples follow the density: MMS_STATS_MODEL names a model") {
+  const auto any_asked = [](const std::vector<Case>& cases) {
+    return std::any_of(cases.begin(), cases.end(), asked);
+  };
+  CHECK((any_asked(smooth_cases()) || any_asked(narrow_cases())));
+}
+
 TEST_CASE("samples follow the density") { check_samples_follow(smooth_cases(), kDegrees, 0); }
 
 TEST_CASE("samples follow the density where lobes are narrow") {
