@@ -177,10 +177,11 @@ struct CoatShape {
 template <class R>
 using Films = std::array<Film<R>, kWavelengths>;
 
-/// A coat at each wavelength. Where its index is not above 1 it counts as a mirror.
+/// A coat at each wavelength. Where its index is not above 1 it counts as a mirror, but below
+/// another coat as one of the inverse index.
 template <class R>
 struct CoatNumbers {
-  Spectrum<R> eta{R(1)};  ///< index below over index above
+  Spectrum<R> eta{R(1)};  ///< index below over index above, or its inverse
   Films<R> films;
   Spectrum<R> mean{};   ///< of F over the hemisphere
   Spectrum<R> least{};  ///< |cosine| at which light meets the coat, below others
@@ -190,17 +191,22 @@ struct CoatNumbers {
   CoatNumbers(const R* ior, const Films<R>& above, const Spectrum<R>& held, const Spectrum<R>& even,
               const Spectrum<R>& least_cosine)
       : films(above), least(least_cosine) {
-    for_each_index(ior, [&](int j, bool same_index) {
-      const bool repeated = same_index && films[j] == films[j - 1];
-      eta[j] = repeated ? eta[j - 1] : relative_eta(ior[j], Vec3<R>{0, 0, 1});
+    for (int j = 0; j < kWavelengths; ++j) {
+      eta[j] = relative_eta(ior[j], Vec3<R>{0, 0, 1});
       // Under a film an index of 1 is a coat like others; on one below there is no film.
       if (films[j].there() && eta[j] < 1 - kNextToOne) films[j] = {};
       if (films[j].there()) eta[j] = std::max(eta[j], 1 + kNextToOne);
+      if (eta[j] < 1 && least[j] > 0) {
+        least[j] = std::sqrt(std::max(1 - bent_sine2(j), R(0)));
+        eta[j] = 1 / eta[j];
+        falls_.set(j);
+      }
+      const bool repeated = j > 0 && eta[j] == eta[j - 1] && films[j] == films[j - 1];
       mean[j] = repeated ? mean[j - 1] : face(j).mean();
       const bool same =
           repeated && held[j] == held[j - 1] && even[j] == even[j - 1] && least[j] == least[j - 1];
       shape[j] = same ? shape[j - 1] : of(j, {held[j], even[j]});
-    });
+    }
     find_repeated();
   }
 
@@ -243,14 +249,21 @@ struct CoatNumbers {
   R mean_reflected(int j) const { return shape[j].mean(mean[j], eta[j]); }
   /// |Cosine| at which light that has passed meets what lies below, at least.
   R least_below(int j) const {
-    const R sine2 = (1 - least[j]) * (1 + least[j]) / (eta[j] * eta[j]);
-    return std::sqrt(1 - sine2);
+    return falls_[j] ? least[j] : std::sqrt(std::max(1 - bent_sine2(j), R(0)));
+  }
+  /// |Cosine| of light that has passed, from that outside all coats; 0 where none does.
+  R cosine_inside(int j, R z) const {
+    const R most_sine2 = falls_[j] ? (1 - least[j]) * (1 + least[j]) : bent_sine2(j);
+    return std::sqrt(std::max(1 - (1 - z) * (1 + z) * most_sine2, R(0)));
   }
 
  private:
   static constexpr R kNextToOne = R(1e-4);  ///< how near films let an index be
 
-  std::bitset<kWavelengths> repeated_;
+  std::bitset<kWavelengths> repeated_, falls_;
+
+  /// The square of the sine of light along the surface, once it has passed.
+  R bent_sine2(int j) const { return (1 - least[j]) * (1 + least[j]) / (eta[j] * eta[j]); }
 
   void find_repeated() {
     for (int j = 1; j < kWavelengths; ++j)

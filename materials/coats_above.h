@@ -57,6 +57,8 @@ struct CoatAbove {
   std::array<bool, kWavelengths> nested{};
 
   bool filmed(int j) const { return numbers.films[j].there(); }
+  /// |Cosine| of light in it, from that outside all coats.
+  R cosine_inside(int j, R z) const { return ior ? numbers.cosine_inside(j, z) : z; }
 };
 
 /// One entry for each node of a layout; entries beyond it are not initialised.
@@ -83,21 +85,13 @@ struct SolvedPerNode {
 
 namespace detail {
 
-/// What a layer lets through along a direction of |cosine| `c` outside: exp(-depth / cosine
-/// inside).
+/// What the layer of a `coat`, whose numbers are at `p`, lets through at wavelength j, where the
+/// |cosine| inside is `inside`: exp(-depth / cosine).
 template <class R>
-inline R layer_transmittance(R depth, R ior, R c) {
-  if (!(depth > 0)) return 1;
-  const R eta = relative_eta(ior, Vec3<R>{0, 0, 1});
-  const R inside2 = refraction_g2(limited(c, R(0), R(1)), eta) / (eta * eta);
-  return inside2 > 0 ? std::exp(-depth / std::sqrt(inside2)) : R(0);
-}
-
-/// The same for wavelength j of a coat whose numbers are at `p`.
-template <class R>
-inline R layer_transmittance(const R* p, int j, R c) {
+inline R layer_transmittance(const R* p, int j, R inside) {
   const R depth = std::min(non_negative(p[0]) * non_negative(p[1 + j]), R(1e6));
-  return layer_transmittance(depth, p[1 + kWavelengths + j], c);
+  if (!(depth > 0)) return 1;
+  return inside > 0 ? std::exp(-depth / inside) : R(0);
 }
 
 /// The films of a `film_mix`, whose numbers behind its indices are at `p`.
@@ -367,7 +361,8 @@ struct CoatsOnGlass {
   R layers(int j, R z) const {
     R through = 1;
     for_each_together(coats, above, j, [&](const CoatAbove<R>& one) {
-      if (one.layer) through *= detail::layer_transmittance(one.layer, j, z);
+      if (one.layer)
+        through *= detail::layer_transmittance(one.layer, j, one.numbers.cosine_inside(j, z));
     });
     return through;
   }

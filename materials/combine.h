@@ -9,7 +9,7 @@
 /// wo the coat reflects E and lets T = 1 - E through (materials/coat.h), both from outside the
 /// coat; E' and T' along wi. A `coat` dims what passes its layer twice, along the refracted
 /// directions: exp(-absorption thickness (1 / c + 1 / c')) on `base`, where c^2 = 1 - (1 -
-/// |wo.z|^2) / ior^2, c' alike for wi.
+/// |wo.z|^2) / n^2, c' alike for wi; n is `ior` times that of all coats right above.
 ///
 /// Where the index is above 1, and the coat made of `glossy`, `glossy_product`, `glossy_back`,
 /// `microfacet`, `beckmann`, metals and mirrors, one of them or what `mix`, `scale` and `add` make
@@ -37,7 +37,9 @@
 /// Where a coat lies right under another, as plastic under varnish, and so on, T is the product of
 /// all coats above, and a lobe of a coat below others gets E of its coat times their T: g and h are
 /// then solved for (materials/under_coats.h), however many there are, within 1e-4; where facets of
-/// anisotropy 0.9 are part of two, 3e-4. A coat whose index is 1 at every wavelength is not there.
+/// anisotropy 0.9 are part of two, 3e-4. There an index may be below 1 too, as of water under
+/// varnish (materials/coat.h); of the uppermost coat that is seen to lose, up to 0.6, and never to
+/// gain. A coat whose index is 1 at every wavelength is not there.
 ///
 /// Under a film, of `film_mix(base, coat, ior, film_ior, thickness, wavelength)`, E is what film
 /// and interface reflect (materials/coat.h), and g and h are solved for too. Mattes, round facets
@@ -185,8 +187,8 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
       case Lobe::Coat:
         under_coat(i, b, p + 1 + kWavelengths, w[b], w[a]);
         for (int j = 0; j < kWavelengths; ++j) {
-          const R along_o = detail::layer_transmittance(p, j, cos_o),
-                  along_i = detail::layer_transmittance(p, j, cos_i);
+          const R along_o = detail::layer_transmittance(p, j, coats.of[b].cosine_inside(j, cos_o)),
+                  along_i = detail::layer_transmittance(p, j, coats.of[b].cosine_inside(j, cos_i));
           w[b].other[j] *= along_o * along_i;
           w[b].lambert[j] *= along_o * along_i;
           w[b].bare[j] *= along_o * along_i;
@@ -386,9 +388,11 @@ inline void weigh_for_choice(const Layout& layout, const R* params, Vec3<R> wo,
         w[b] = w[i] * transmitted;
         // Light inside that stays there never meets the layer.
         if (wo.z < 0 && coats && coats->of[b].over_glass) break;
-        for (int j = 0; j < kWavelengths; ++j)
+        for (int j = 0; j < kWavelengths; ++j) {
+          const R inside = coats ? coats->of[b].cosine_inside(j, cos_o) : cos_o;
           w[b][j] *=
-              detail::layer_transmittance(p, j, cos_o) * detail::layer_transmittance(p, j, R(1));
+              detail::layer_transmittance(p, j, inside) * detail::layer_transmittance(p, j, R(1));
+        }
         break;
       }
       default:

@@ -188,6 +188,33 @@ TEST_CASE("a coat dims its base by its two ways through the layer") {
     }
 }
 
+TEST_CASE("a layer below coats is crossed as Snell's law has it, through all of them") {
+  const double depth = 0.7;
+  for (const double above : {1.2, 1.5})
+    for (const double below : {0.9, 1.0, 1.3})  // of it over that above
+      for (const double degrees : {10.0, 50.0, 80.0}) {
+        const auto seen = [&](double thickness) {
+          const Material m = coat(
+              mirror(1), coat(microfacet(1, 0.3), matte(0.8), thickness, 1, below), 0, 0, above);
+          const Material black =
+              coat(mirror(1), coat(microfacet(1, 0.3), matte(0), thickness, 1, below), 0, 0, above);
+          const auto f = [&](const Material& of) {
+            const materials::Layout layout = of.layout();
+            const auto p = of.params<double>();
+            return Bsdf<double>(layout, p.data())
+                .eval(direction(degrees, 0.4), direction(35, 3), Mode::Radiance)[0];
+          };
+          return f(m) - f(black);
+        };
+        double ways = 0;
+        for (const double angle : {degrees, 35.0}) {
+          const double sine = std::sin(angle * kPi<double> / 180) / (above * below);
+          ways += 1 / std::sqrt(1 - sine * sine);
+        }
+        CHECK(seen(depth) == doctest::Approx(seen(0) * std::exp(-depth * ways)).epsilon(1e-12));
+      }
+}
+
 TEST_CASE("turned glossy lobes are the mirrored one") {
   const auto value = [](Lobe lobe, Vec3d o, Vec3d i) {
     const Material m = tinted(lobe, 1, {30, 80});
