@@ -34,6 +34,7 @@
 
 #include "materials/coats_above.h"
 #include "materials/dielectric.h"
+#include "materials/film.h"
 #include "materials/layout.h"
 #include "materials/lobe.h"
 #include "materials/microfacet.h"
@@ -74,7 +75,9 @@ class Bsdf {
     SolvedPerNode<MeanThrough<R>> means;  ///< of Lambert lobes that have coats above
     PerNode<Spectrum<R>> scaling;         ///< g along `wo`, of lobes known under coats or in one
     /// What models with a function `seen` said of `wo`.
-    std::tuple<PerNode<FacetsSeen<R>>, PerNode<InterfaceSeen<R>>> seen;
+    std::tuple<PerNode<FacetsSeen<R>>, PerNode<typename Dielectric<R>::Seen>,
+               PerNode<typename FilmDielectric<R>::Seen>>
+        seen;
 
     const UnderCoats<R>* solution(int node) const { return solved[node] ? &under[node] : nullptr; }
   };

@@ -60,8 +60,8 @@
 /// up to 2.5e-3, and of anisotropy 1 all are within 1e-2. Below a polished coat under another of
 /// index below 1.03, 3e-3. Of `glossy_refraction`, of an index of at least 1, what changes sides
 /// gets g(wo) g(wi) of the directions outside, and what is sent back is the rest of T as a mirror:
-/// 1e-4. Rough `phong_glass`, and other indices, get min(T, T') as if both directions were outside,
-/// and lose up to a tenth about the critical angle.
+/// 1e-4. Rough `phong_glass`, rough glass under a film, and other indices, get min(T, T') as if
+/// both directions were outside, and lose up to a tenth about the critical angle.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`:

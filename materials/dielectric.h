@@ -14,27 +14,65 @@
 
 namespace mms::materials {
 
+/// What facets of an interface lose to further bounces, of what comes from where the index beyond
+/// is `eta` times as high.
+template <class Facets, class R>
+inline InterfaceLoss<R> interface_loss(const Facets& facets, R eta) {
+  return {&facets.interface(), facets.ax, facets.ay, eta};
+}
+
+/// What is at each facet of a bare interface; another face has the same members.
+template <class R>
+struct BareFace {
+  static constexpr bool kFilmed = false;
+  static constexpr int kNumbers = 0;  ///< of its own, behind the index
+
+  explicit BareFace(const R*) {}
+
+  /// Whether it is as at the wavelength before, if the index is.
+  bool repeated(int) const { return true; }
+  /// Of light along a direction of cosine `c` that meets the index ratio `eta`, from outside or
+  /// not.
+  FresnelSplit<R> split(int, R c, R eta, bool) const { return fresnel_split(c, eta); }
+
+  /// What facets lose along a direction and in the mean, for one index and all wavelengths of it.
+  using Loss = R;
+  template <class Facets>
+  static Loss loss(const Facets& facets, R eta, Vec3<R> w) {
+    return interface_loss(facets, eta).at(w);
+  }
+  template <class Facets>
+  static Loss mean_loss(const Facets& facets, R eta) {
+    return interface_loss(facets, eta).mean();
+  }
+  /// What that is at one of the wavelengths.
+  struct Law {
+    R of(Loss loss) const { return loss; }
+  };
+  Law law(int, R) const { return {}; }
+};
+
 /// Facets of an interface along one direction, for each wavelength: what is found once for all that
 /// it meets.
-template <class R>
+template <class R, class Face>
 struct InterfaceSeen {
+  std::array<typename Face::Law, kWavelengths> law;
   R shadow = 0;                       ///< |w.z| Lambda(w)
   Spectrum<R> lost;                   ///< by the first bounce
   Spectrum<R> transmit;               ///< share of that which goes to the far side
   Spectrum<R> mean_here, mean_there;  ///< of what the two sides lose over their hemispheres
 };
 
-template <class R, template <class> class Distribution>
+template <class R, template <class> class Distribution, class Face = BareFace<R>>
 struct RoughInterface {
+  using Seen = InterfaceSeen<R, Face>;
+
   const R* ior;
+  Face face;
   Distribution<R> facets;
   Spectrum<R> reflected, transmitted;
 
-  explicit RoughInterface(const R* p)
-      : ior(p),
-        facets{Alpha<R>::from(p[kWavelengths], p[3 * kWavelengths + 1])},
-        reflected(weight_at(p + kWavelengths + 1)),
-        transmitted(weight_at(p + 2 * kWavelengths + 1)) {}
+  explicit RoughInterface(const R* p) : RoughInterface(p, p + kWavelengths + Face::kNumbers) {}
 
   /// Also where refraction bends so little at every wavelength that the transmitted lobe, of width
   /// about alpha |ior - 1|, is narrower than a float direction resolves (see kMinAlpha).
@@ -49,17 +87,29 @@ struct RoughInterface {
   }
 
   Spectrum<R> estimate(Vec3<R> wo) const {
-    return interface_estimate(ior, wo, reflected, transmitted, !specular());
+    return interface_estimate(ior, wo, reflected, transmitted, Face::kFilmed || !specular());
   }
 
   SpecularTerms<R> terms(Vec3<R> wo) const {
-    return interface_terms(ior, wo, reflected, transmitted);
+    const R c = std::min(std::abs(wo.z), R(1));
+    SpecularTerms<R> t;
+    FresnelSplit<R> s;
+    for (int j = 0; j < kWavelengths; ++j) {
+      t.eta[j] = relative_eta(ior[j], wo);
+      if (!repeated(j)) s = face.split(j, c, t.eta[j], wo.z > 0);
+      const Choice choice = choose(j, s);
+      t.reflect_weight[j] = s.reflected * reflected[j];
+      t.transmit_weight[j] = s.transmitted * transmitted[j];
+      t.reflect_probability[j] = choice.reflect;
+      t.transmit_probability[j] = choice.transmit;
+    }
+    return t;
   }
 
   /// Whether it is known what coats send back, `coats` being as in SentBack::smooth.
   template <class Coats>
   bool knows_coats(const Coats& coats) const {
-    bool known = true;
+    bool known = !Face::kFilmed;
     for (int j = 0; j < kWavelengths; ++j) {
       const auto& law = coats.law[j];
       known &= in_glass_tables(rough_eta(j, Vec3<R>{0, 0, 1})) &&
@@ -92,37 +142,40 @@ struct RoughInterface {
     return back;
   }
 
-  InterfaceSeen<R> seen(Vec3<R> wo) const {
-    InterfaceSeen<R> s;
+  Seen seen(Vec3<R> wo) const {
+    Seen s;
     s.shadow = facets.shadow(wo);
-    R lost = 0, transmit = 0, mean_here = 0, mean_there = 0;
+    typename Face::Loss here, mean_here, mean_there;
     for (int j = 0; j < kWavelengths; ++j) {
-      if (!repeated(j)) {
-        const R eta = rough_eta(j, wo);
-        const InterfaceLoss<R> here = loss(eta);
-        lost = here.at(wo);
-        mean_here = here.mean();
-        mean_there = loss(1 / eta).mean();
-        transmit = transmitted_share(mean_here, mean_there, eta);
+      const R eta = rough_eta(j, wo);
+      if (!same_index(j)) {
+        here = Face::loss(facets, eta, wo);
+        mean_here = Face::mean_loss(facets, eta);
+        mean_there = Face::mean_loss(facets, 1 / eta);
       }
-      s.lost[j] = lost, s.transmit[j] = transmit;
-      s.mean_here[j] = mean_here, s.mean_there[j] = mean_there;
+      s.law[j] = face.law(j, wo.z > 0 ? eta : 1 / eta);
+      s.lost[j] = s.law[j].of(here);
+      s.mean_here[j] = s.law[j].of(mean_here);
+      s.mean_there[j] = s.law[j].of(mean_there);
+      s.transmit[j] = transmitted_share(s.mean_here[j], s.mean_there[j], eta);
     }
     return s;
   }
 
-  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const InterfaceSeen<R>& seen) const {
+  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Seen& seen) const {
     const bool reflects = same_side(wo, wi);
     Lobes<R> out = reflects ? evaluate_reflection(wo, wi, seen.shadow)
                             : evaluate_transmission(wo, wi, seen.shadow, mode);
     const R pdf = BounceSampling<R>{facets.ax * facets.ay}.pdf(std::abs(wi.z));
     const Spectrum<R>& mean = reflects ? seen.mean_here : seen.mean_there;
-    R eta = 1, shape = 0;  // what further bounces spread along wi
+    R eta = 1;
+    typename Face::Loss spread;  // by further bounces along wi
     for (int j = 0; j < kWavelengths; ++j) {
-      if (!repeated(j)) {
+      if (!same_index(j)) {
         eta = rough_eta(j, wo);
-        shape = loss(reflects ? eta : 1 / eta).at(wi) / (kPi<R> * mean[j]);
+        spread = Face::loss(facets, reflects ? eta : 1 / eta, wi);
       }
+      const R shape = seen.law[j].of(spread) / (kPi<R> * mean[j]);
       const FresnelSplit<R> further{1 - seen.transmit[j], seen.transmit[j]};
       const R f =
           reflects ? further.reflected * reflected[j] : further.transmitted * transmitted[j];
@@ -135,7 +188,7 @@ struct RoughInterface {
     return out;
   }
 
-  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const InterfaceSeen<R>& seen, Vec3<R>& wi) const {
+  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const Seen& seen, Vec3<R>& wi) const {
     const Vec3<R> up = to_upper(wo, wo);
     const R lost = seen.lost[0];
     if (u_lobe < lost) {
@@ -152,7 +205,7 @@ struct RoughInterface {
     const R c = dot(up, h);
     if (!(c > 0)) return false;
     const R eta = rough_eta(0, wo);
-    const Choice choice = choose(0, fresnel_split(std::min(c, R(1)), eta));
+    const Choice choice = choose(0, face.split(0, std::min(c, R(1)), eta, wo.z > 0));
     if (u_lobe < choice.reflect) {
       wi = normalize(h * (2 * c) - up);
       if (!(wi.z > 0)) return false;
@@ -173,6 +226,14 @@ struct RoughInterface {
     R reflect = 0, transmit = 0;
   };
 
+  /// Numbers of the face stand between those at `p` and those at `rest`.
+  RoughInterface(const R* p, const R* rest)
+      : ior(p),
+        face(p + kWavelengths),
+        facets{Alpha<R>::from(rest[0], rest[2 * kWavelengths + 1])},
+        reflected(weight_at(rest + 1)),
+        transmitted(weight_at(rest + kWavelengths + 1)) {}
+
   R narrow() const { return std::min(facets.ax, facets.ay); }
 
   /// Index ratio with the bend kept above what `specular()` resolves; wavelengths of one material
@@ -184,12 +245,10 @@ struct RoughInterface {
     return wo.z > 0 ? bent : 1 / bent;
   }
 
-  /// To further bounces, of what comes from where the index beyond is `eta` times as high.
-  InterfaceLoss<R> loss(R eta) const { return {&facets.interface(), facets.ax, facets.ay, eta}; }
-
+  bool same_index(int j) const { return j > 0 && ior[j] == ior[j - 1]; }
   /// All is as at the wavelength before.
   bool repeated(int j) const {
-    return j > 0 && ior[j] == ior[j - 1] && reflected[j] == reflected[j - 1] &&
+    return same_index(j) && face.repeated(j) && reflected[j] == reflected[j - 1] &&
            transmitted[j] == transmitted[j - 1];
   }
 
@@ -212,7 +271,7 @@ struct RoughInterface {
             pdf = visible(facets, o, shadow, h) / 4;
     FresnelSplit<R> s;
     for (int j = 0; j < kWavelengths; ++j) {
-      if (!repeated(j)) s = fresnel_split(half.cosine, rough_eta(j, wo));
+      if (!repeated(j)) s = face.split(j, half.cosine, rough_eta(j, wo), wo.z > 0);
       out.f[j] = s.reflected * reflected[j] * f;
       out.pdf[j] = choose(j, s).reflect * pdf;
     }
@@ -238,7 +297,7 @@ struct RoughInterface {
       h = h * (h.z < 0 ? -inv : inv);
       const R oh = dot(o, h), ih = dot(i, h);
       if (!(oh > 0) || !(ih < 0) || !(h.z > 0)) continue;
-      const FresnelSplit<R> s = fresnel_split(std::min(oh, R(1)), eta);
+      const FresnelSplit<R> s = face.split(j, std::min(oh, R(1)), eta, wo.z > 0);
       const R jacobian = -ih * inv * inv;
       const R scale = mode == Mode::Radiance ? R(1) : eta * eta;
       // masking already holds 1 / (4 |wo.z| |wi.z|).

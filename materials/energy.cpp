@@ -1,43 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materials/energy.h"
 
-#include "materials/coated.h"
-
 namespace mms::materials {
 
-#include "coated_tables.inc"  // made by the build: materials/tables/coated.cpp
 #include "energy_tables.inc"  // made by the build: materials/tables/energy.cpp
 
 const FacetTables kGgxTables{kGgxLoss, kGgxMean, kGgxStretched, kGgxStretchedMean};
 const FacetTables kBeckmannTables{kBeckmannLoss, kBeckmannMean, kBeckmannStretched,
                                   kBeckmannStretchedMean};
-const CoatedTables kGgxCoated{
-    {kGgxUnderTable0, kGgxUnderTable1, kGgxUnderTable2, kGgxUnderTable3, kGgxUnderTable4},
-    kGgxCoatTable,
-    {kGgxStretchedUnderTable0, kGgxStretchedUnderTable1, kGgxStretchedUnderTable2,
-     kGgxStretchedUnderTable3},
-    kGgxStretchedCoatTable,
-    kGgxSpreadTable};
-const CoatedTables kBeckmannCoated{
-    {kBeckmannUnderTable0, kBeckmannUnderTable1, kBeckmannUnderTable2, kBeckmannUnderTable3,
-     kBeckmannUnderTable4},
-    kBeckmannCoatTable,
-    {kBeckmannStretchedUnderTable0, kBeckmannStretchedUnderTable1, kBeckmannStretchedUnderTable2,
-     kBeckmannStretchedUnderTable3},
-    kBeckmannStretchedCoatTable,
-    kBeckmannSpreadTable};
-const CoatedTables kGlossyCoated{{kGlossyUnderTable0, kGlossyUnderTable1, kGlossyUnderTable2,
-                                  kGlossyUnderTable3, kGlossyUnderTable4},
-                                 kGlossyCoatTable,
-                                 {},
-                                 nullptr,
-                                 kGlossySpreadTable};
-const CoatedTables kMatteCoated{
-    {kMatteUnderTable0, kMatteUnderTable1, kMatteUnderTable2, kMatteUnderTable3, kMatteUnderTable4},
-    nullptr,
-    {},
-    nullptr,
-    kMatteSpreadTable};
 const InterfaceTables kGgxInterface{{kGgxDense, kGgxRare},
                                     {kGgxDenseMean, kGgxRareMean},
                                     kGgxBent,

@@ -2,12 +2,14 @@
 #pragma once
 
 /// \file
-/// A film (materials/thin_film.h) over metal (`film_conductor`) or glass (`film_dielectric`). Light
-/// between facets is taken as for a bare metal.
+/// A film (materials/thin_film.h) over metal (`film_conductor`) or glass (`film_dielectric`), which
+/// both may be rough: facets are larger than the film is thick, and each has its colours.
 
 #include <complex>
 
 #include "materials/conductor.h"
+#include "materials/dielectric.h"
+#include "materials/film_energy.h"
 #include "materials/thin_film.h"
 
 namespace mms::materials {
@@ -35,32 +37,43 @@ struct FilmFresnel {
 template <class R>
 using FilmConductor = RoughMetal<R, FilmFresnel>;
 
-/// Smooth glass under a film on its outside; lossless.
+/// An interface under a film on its outside: index and thickness of the film and the wavelengths.
 template <class R>
-struct FilmDielectric {
+struct FilmFace {
+  static constexpr bool kFilmed = true;
+  static constexpr int kNumbers = 2 * kWavelengths + 1;
   const R* p;
 
-  explicit FilmDielectric(const R* numbers) : p(numbers) {}
+  explicit FilmFace(const R* numbers) : p(numbers) {}
 
-  Spectrum<R> estimate(Vec3<R>) const { return Spectrum<R>(R(1)); }
+  bool repeated(int j) const {
+    const R* wavelength = p + kWavelengths + 1;
+    return p[j] == p[j - 1] && wavelength[j] == wavelength[j - 1];
+  }
+  FresnelSplit<R> split(int j, R c, R eta, bool outside) const {
+    if (!(refraction_g2(c, eta) > 0)) return {R(1), R(0)};
+    return outside ? film(j).split(c, R(1), eta) : film(j).split(c, 1 / eta, R(1));
+  }
 
-  SpecularTerms<R> terms(Vec3<R> wo) const {
-    const R c = std::min(std::abs(wo.z), R(1)), thickness = p[2 * kWavelengths];
-    const R* wavelength = p + 2 * kWavelengths + 1;
-    SpecularTerms<R> t;
-    for (int j = 0; j < kWavelengths; ++j) {
-      t.eta[j] = relative_eta(p[j], wo);
-      const R ior = wo.z > 0 ? t.eta[j] : 1 / t.eta[j];
-      const Film<R> film(p[kWavelengths + j], thickness, wavelength[j]);
-      const bool total = !(refraction_g2(c, t.eta[j]) > 0);
-      const FresnelSplit<R> s = total ? FresnelSplit<R>{R(1), R(0)}
-                                      : film.split(c, wo.z > 0 ? R(1) : ior, wo.z > 0 ? ior : R(1));
-      const R sum = s.reflected + s.transmitted;
-      t.reflect_weight[j] = s.reflected, t.reflect_probability[j] = s.reflected / sum;
-      t.transmit_weight[j] = s.transmitted, t.transmit_probability[j] = s.transmitted / sum;
-    }
-    return t;
+  using Loss = FilmedLoss<R>;
+  static Loss loss(const Ggx<R>& facets, R eta, Vec3<R> w) {
+    return Loss::at(kGgxFilm, interface_loss(facets, eta), mirrors(facets), w);
+  }
+  static Loss mean_loss(const Ggx<R>& facets, R eta) {
+    return Loss::mean(kGgxFilm, interface_loss(facets, eta), mirrors(facets));
+  }
+  using Law = FilmLaw<R>;
+  /// Of the index inside.
+  Law law(int j, R n) const { return {film(j), n}; }
+
+ private:
+  Film<R> film(int j) const { return {p[j], p[kWavelengths], p[kWavelengths + 1 + j]}; }
+  static FacetLoss<R> mirrors(const Ggx<R>& facets) {
+    return {&facets.tables(), facets.ax, facets.ay};
   }
 };
+
+template <class R>
+using FilmDielectric = RoughInterface<R, Ggx, FilmFace<R>>;
 
 }  // namespace mms::materials

@@ -167,7 +167,7 @@ openpbr_medium openpbr_inside(
 ///
 /// Weights of what is specular, and of the coat, are indices (`openpbr_index`), fuzz is a `layer` of
 /// `sheen`; subsurface is entered and left like a `translucent` under the facets, which is what
-/// `subsurface_color` is fitted for, and not bent; a film on rough glass is smooth.
+/// `subsurface_color` is fitted for, and not bent.
 /// >>> openpbr(base_color = 0.5, base_metalness = 1.0)
 /// >>> openpbr(base_color = rgb(0.6, 0.05, 0.02), coat_weight = 1.0)
 material openpbr(
@@ -228,11 +228,16 @@ material openpbr(
         spectrum(specular_ior) otherwise;
     end;
     width = openpbr_stretched(specular_roughness, specular_roughness_anisotropy);
-    glass = mix(
-        dielectric(bent, width.roughness, specular_color, tint, width.anisotropy),
-        film_dielectric(bent, thin_film_ior, film, $wavelength),
-        saturate(thin_film_weight)
+    clean = dielectric(bent, width.roughness, specular_color, tint, width.anisotropy);
+    tinged = film_dielectric(
+        bent, thin_film_ior, film, $wavelength, width.roughness, specular_color, tint,
+        width.anisotropy
     );
+    glass = select
+        clean, if thin_film_weight <= 0.0;
+        tinged, if thin_film_weight >= 1.0;
+        mix(clean, tinged, thin_film_weight) otherwise;
+    end;
     pane  = slab(specular_ior, 1.0, absorption_from(transmission_color, 1.0));
     clear = select pane, if geometry_thin_walled; glass otherwise; end;
 

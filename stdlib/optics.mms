@@ -220,10 +220,11 @@ material coated_metal(spectrum n, k, real thickness, spectrum film_ior = 1.5,
     real roughness = 0.0) =
     film_conductor(n, k, film_ior, thickness, $wavelength, roughness);
 
-/// Smooth glass under a transparent film `thickness` metres thin, such as a lens' coating.
+/// Glass under a transparent film `thickness` metres thin, such as a lens' coating.
 /// >>> coated_glass(1.5, 100nm)
-material coated_glass(spectrum ior, real thickness, spectrum film_ior = 1.38) =
-    film_dielectric(ior, film_ior, thickness, $wavelength);
+material coated_glass(spectrum ior, real thickness, spectrum film_ior = 1.38,
+    real roughness = 0.0) =
+    film_dielectric(ior, film_ior, thickness, $wavelength, roughness);
 
 /// `base`, such as a matte, under facets `top` and a transparent film `thickness` metres thin on
 /// them: oil on plastic, the wing of a beetle.

@@ -15,32 +15,8 @@
 #include "materials/tables/slopes.h"
 
 namespace mms::materials {
-
-#include "energy_tables.inc"  // made by the build: materials/tables/energy.cpp
-
 namespace tables {
 namespace {
-
-const InterfaceTables& losses_of(const Ggx<double>&) {
-  static const InterfaceTables tables{{kGgxDense, kGgxRare},
-                                      {kGgxDenseMean, kGgxRareMean},
-                                      kGgxBent,
-                                      {kGgxDenseStretched, kGgxRareStretched},
-                                      {kGgxDenseStretchedMean, kGgxRareStretchedMean},
-                                      kGgxLeastMean,
-                                      kGgxKink};
-  return tables;
-}
-const InterfaceTables& losses_of(const Beckmann<double>&) {
-  static const InterfaceTables tables{{kBeckmannDense, kBeckmannRare},
-                                      {kBeckmannDenseMean, kBeckmannRareMean},
-                                      kBeckmannBent,
-                                      {kBeckmannDenseStretched, kBeckmannRareStretched},
-                                      {kBeckmannDenseStretchedMean, kBeckmannRareStretchedMean},
-                                      kBeckmannLeastMean,
-                                      kBeckmannKink};
-  return tables;
-}
 
 double index_at(double place) {
   using namespace axes;
@@ -77,57 +53,44 @@ std::array<double, kRest> rest_functions(double z) {
   return to;
 }
 
-/// A number for each index of coats on an axis, and for each of the four functions.
+/// A number for each of `Count` indices of coats on an axis, and then for each of the four
+/// functions.
+template <int Count>
+using Parts = Numbers<Count + kRest>;
+
+template <int Count>
+Parts<Count> parts_at(double z) {
+  Parts<Count> to;
+  for (int k = 0; k < Count; ++k)
+    to.of[k] = fresnel_dielectric(z, index_at(double(k) / (Count - 1)));
+  const auto rest = rest_functions(z);
+  std::copy(rest.begin(), rest.end(), to.of.begin() + Count);
+  return to;
+}
+
+/// What GlassTables hold the integral of, at |cosine| `z` outside.
 template <bool Inside, int Count>
-struct Parts {
-  std::array<double, Count + kRest> of{};
-
-  Parts operator*(double x) const {
-    Parts product = *this;
-    for (double& v : product.of) v *= x;
-    return product;
-  }
-  Parts& operator+=(const Parts& b) {
-    for (std::size_t k = 0; k < of.size(); ++k) of[k] += b.of[k];
-    return *this;
-  }
-  double steep(int k) const { return of[k]; }
-  double rest(int m) const { return of[Count + m]; }
-
-  /// What GlassTables hold the integral of, at |cosine| `z` outside.
-  static Parts lacks(double z) {
-    static const Parts normal = values(1);
-    Parts lack = values(z);
-    if (Inside) return lack;
-    for (int k = 0; k < Count; ++k) lack.of[k] = (lack.of[k] - normal.of[k]) / (1 - normal.of[k]);
-    for (int m = 0; m < kRest; ++m) lack.of[Count + m] -= normal.of[Count + m];
-    return lack;
-  }
-
- private:
-  static Parts values(double z) {
-    Parts to;
-    for (int k = 0; k < Count; ++k)
-      to.of[k] = fresnel_dielectric(z, index_at(double(k) / (Count - 1)));
-    const auto rest = rest_functions(z);
-    std::copy(rest.begin(), rest.end(), to.of.begin() + Count);
-    return to;
-  }
-};
+Parts<Count> lacks(double z) {
+  static const Parts<Count> normal = parts_at<Count>(1);
+  Parts<Count> lack = parts_at<Count>(z);
+  if (Inside) return lack;
+  for (int k = 0; k < Count; ++k) lack.of[k] = (lack.of[k] - normal.of[k]) / (1 - normal.of[k]);
+  for (int m = 0; m < kRest; ++m) lack.of[Count + m] -= normal.of[Count + m];
+  return lack;
+}
 
 /// That of further bounces: its mean over l outside (materials/energy.h), as a share of all of
 /// them.
 template <bool Inside, int Count, class Facets>
-Parts<Inside, Count> further(const Facets& facets, double glass) {
-  const InterfaceTables& tables = losses_of(facets);
-  const InterfaceLoss<double> outside{&tables, facets.ax, facets.ay, glass},
-      inside{&tables, facets.ax, facets.ay, 1 / glass};
+Parts<Count> further(const Facets& facets, double glass) {
+  const InterfaceLoss<double> outside{&facets.interface(), facets.ax, facets.ay, glass},
+      inside{&facets.interface(), facets.ax, facets.ay, 1 / glass};
   const double a2 = facets.ax * facets.ay, log = std::log1p(1 / a2);
   const double mean_outside = outside.mean(), mean_inside = inside.mean();
   const double across = Inside ? transmitted_share(mean_inside, mean_outside, 1 / glass)
                                : transmitted_share(mean_outside, mean_inside, glass);
   const bool round = facets.ax == facets.ay;
-  Parts<Inside, Count> sum;
+  Parts<Count> sum;
   double all = 0;
   const int panels = round ? 24 : 12, turns = round ? 1 : 6;
   for (int n = 0; n < 8 * panels; ++n) {  // z^2 + alpha^2 spread evenly over its logarithm
@@ -138,7 +101,7 @@ Parts<Inside, Count> further(const Facets& facets, double glass) {
       return outside.at({s * x, s * y, z});
     });
     const double share = l * (z2 + a2) * gauss<8>().w[n % 8];
-    sum += Parts<Inside, Count>::lacks(z) * share;
+    sum += lacks<Inside, Count>(z) * share;
     all += share;
   }
   return sum * ((Inside ? across : 1 - across) / all);
@@ -146,16 +109,15 @@ Parts<Inside, Count> further(const Facets& facets, double glass) {
 
 /// The integrals for light along `w`, z > 0.
 template <bool Inside, int Count, class Facets>
-Parts<Inside, Count> sent_back(const Facets& facets, double glass, Vec3d w,
-                               const Parts<Inside, Count>& further) {
-  using All = Parts<Inside, Count>;
+Parts<Count> sent_back(const Facets& facets, double glass, Vec3d w, const Parts<Count>& further) {
   const double eta = Inside ? 1 / glass : glass;
-  All sent = interface_mean(facets, eta, w, Inside ? 16 : 24, [](const Way& up, const Way& down) {
-    const Way& out = Inside ? down : up;
-    const double leaves = out.share * (1 - out.taken);
-    return leaves > 0 ? All::lacks(out.cosine) * leaves : All();
-  });
-  sent += further * InterfaceLoss<double>{&losses_of(facets), facets.ax, facets.ay, eta}.at(w);
+  Parts<Count> sent =
+      interface_mean(facets, eta, w, Inside ? 16 : 24, [](const Way& up, const Way& down) {
+        const Way& out = Inside ? down : up;
+        const double leaves = out.share * (1 - out.taken);
+        return leaves > 0 ? lacks<Inside, Count>(out.cosine) * leaves : Parts<Count>();
+      });
+  sent += further * InterfaceLoss<double>{&facets.interface(), facets.ax, facets.ay, eta}.at(w);
   return sent;
 }
 
@@ -204,10 +166,10 @@ Bent bent_side(const GlassTables& round) {
         };
         for (int k = 0; k < coats; ++k) {
           coat.eta = index_at(double(k) / (coats - 1));
-          value(k) = sent.steep(k) - round_parts(round, seen, Inside, glass, coat).steep;
+          value(k) = sent.of[k] - round_parts(round, seen, Inside, glass, coat).steep;
         }
         const auto parts = round_parts(round, seen, Inside, glass, coat);
-        for (int m = 0; m < kRest; ++m) value(coats + m) = sent.rest(m) - parts.rest[m];
+        for (int m = 0; m < kRest; ++m) value(coats + m) = sent.of[coats + m] - parts.rest[m];
       }
     }
     for (int d = 0; d < grid.direction; ++d)
@@ -244,9 +206,8 @@ void write_side(const TableFiles& to, const std::string& name) {
           sent_back<Inside, coats>(facets, glass, {std::sqrt(1 - z * z), 0, z}, further_bounces);
       const int at = i * directions + d;
       for (int k = 0; k < coats; ++k)
-        steep.values[at * coats + k] =
-            Inside ? std::sqrt(std::max(sent.steep(k), 0.0)) : sent.steep(k);
-      for (int m = 0; m < kRest; ++m) rest.values[at * kRest + m] = sent.rest(m);
+        steep.values[at * coats + k] = Inside ? std::sqrt(std::max(sent.of[k], 0.0)) : sent.of[k];
+      for (int m = 0; m < kRest; ++m) rest.values[at * kRest + m] = sent.of[coats + m];
     }
   });
   const auto write = [&](const std::string& part, const std::vector<double>& spline) {

@@ -31,13 +31,13 @@ double cosine(double place, const Axis& axis) {
   return std::sin(lo * kPi<double> / 2);
 }
 
-/// Mean over a quarter of a turn of `f(x, y)`, (x, y) of unit length and x along the wider axis of
-/// facets of that quotient of both widths: by `n` directions that crowd a little about the narrower
-/// one, where losses change fastest.
+/// Mean over a quarter of a turn of `f(x, y)`, a number or some, (x, y) of unit length and x along
+/// the wider axis of facets of that quotient of both widths: by `n` directions that crowd a little
+/// about the narrower one, where losses change fastest.
 template <class F>
-double quarter_mean(double aspect, int n, const F& f) {
+auto quarter_mean(double aspect, int n, const F& f) {
   const double crowding = std::pow(aspect, 0.2);
-  double sum = 0;
+  decltype(f(0.0, 0.0)) sum{};
   for (int i = 0; i < n; ++i) {
     const double turn = (i + 0.5) / n * kPi<double> / 2;
     const double x = std::cos(turn), y = crowding * std::sin(turn), length = std::hypot(x, y);

@@ -104,11 +104,28 @@ class Cuts {
   int size_ = 0;
 };
 
-/// What a facet sends one way, up or down: its share of what meets it, how much of that other
-/// facets then take, and the |cosine| of where it leaves the surface. What leads to the wrong side
-/// is all taken.
+/// What a facet sends one way, up or down: its share of what meets it, the |cosine| that it leaves
+/// the facet at, how much of it other facets then take, and the |cosine| of where it leaves the
+/// surface. What leads to the wrong side is all taken.
 struct Way {
-  double share = 0, taken = 1, cosine = 0;
+  double share = 0, facet = 0, taken = 1, cosine = 0;
+};
+
+/// Some numbers that are integrated at once.
+template <int N>
+struct Numbers {
+  std::array<double, N> of{};
+
+  Numbers operator*(double x) const {
+    Numbers product = *this;
+    for (double& v : product.of) v *= x;
+    return product;
+  }
+  Numbers operator/(double x) const { return *this * (1 / x); }
+  Numbers& operator+=(const Numbers& b) {
+    for (int k = 0; k < N; ++k) of[k] += b.of[k];
+    return *this;
+  }
 };
 
 /// Mean over the facets that `wo` sees, each an interface of relative index `eta`, of `value(up,
@@ -136,12 +153,19 @@ auto interface_mean(const Facets& facets, double eta, Vec3d wo, int points, cons
     const double facing = z + s * x, length2 = 1 + x * x + y * y, inverse = 1 / std::sqrt(length2);
     const double c = std::min(1.0, facing * inverse), twice = 2 * facing / length2;
     const FresnelSplit<double> f = fresnel_split(c, eta);
-    Way up{f.reflected}, down{f.transmitted};
-    if (twice > z) up = {up.share, hidden(twice * x - s, twice * y, twice - z), twice - z};
+    Way up{f.reflected, c}, down{f.transmitted};
+    if (twice > z) {
+      up.taken = hidden(twice * x - s, twice * y, twice - z);
+      up.cosine = twice - z;
+    }
     if (!(f.transmitted > 0)) return value(up, down);
-    const double bend = e / (c + std::sqrt(std::max(0.0, refraction_g2(c, eta)))) * inverse;
-    const double fall = (bend - z) / eta;
-    if (fall < 0) down = {down.share, hidden((bend * x - s) / eta, bend * y / eta, fall), -fall};
+    const double g = std::sqrt(std::max(0.0, refraction_g2(c, eta)));
+    const double bend = e / (c + g) * inverse, fall = (bend - z) / eta;
+    down.facet = g / eta;
+    if (fall < 0) {
+      down.taken = hidden((bend * x - s) / eta, bend * y / eta, fall);
+      down.cosine = -fall;
+    }
     return value(up, down);
   };
   const auto row = [&](double x) {

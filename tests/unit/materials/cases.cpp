@@ -82,6 +82,12 @@ std::vector<Case> smooth_cases() {
            coat(microfacet(1, 0.4, 0.5),
                 fresnel_mix(microfacet(0.8, 0.5), glossy(1, 40), ramp(1.3, 1.5)), 0, 0, 1.4),
            0.2, ramp(0.1, 2), ramp(1.6, 1.4)));
+  put("coats, a lower index below",
+      coat(mirror(1), coat(microfacet(1, 0.4), matte(0.8), 0.2, ramp(0.1, 2), 0.8), 0, 0, 1.5));
+  put("film_dielectric, rough", film_dielectric(ramp(1.6, 1.4), ramp(1.3, 1.4), 300e-9,
+                                                ramp(400e-9, 700e-9), 0.4, 0.8, ramp(0.5, 1)));
+  put("film_dielectric, stretched, of a low index",
+      film_dielectric(0.7, 2.2, 400e-9, ramp(400e-9, 700e-9), 0.6, 1, 1, 0.7));
   put("coat", fresnel_mix(matte(0.8), glossy(1, 40), ramp(1.6, 1.4)));
   put("coat of facets", fresnel_mix(matte(0.8), microfacet(1, 0.4), ramp(1.6, 1.4)));
   put("coat over rough matte",

@@ -75,6 +75,8 @@ std::vector<Material> extreme_materials() {
     m.push_back(film_conductor(2, 3, 1.5, x, 500e-9, 0));
     m.push_back(film_dielectric(1.5, x, 1e-7, 500e-9));
     m.push_back(film_dielectric(x, 1.5, x, x));
+    m.push_back(film_dielectric(1.5, x, 1e-7, 500e-9, 0.4));
+    m.push_back(film_dielectric(x, 1.5, x, x, 0.3, 1, 1, 0.7));
     m.push_back(film_mix(matte(1), glossy(1, 30), x, x, x, x));
     m.push_back(film_mix(microfacet(1, 0.3), microfacet(1, 0.3), 1.5, x, 3e-7, 5e-7));
     m.push_back(film_mix(dielectric(1.5), mirror(1), x, 1.38, x, 5e-7));

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "materials/thin_film.h"
 #include "tests/sanitized.h"
 #include "tests/unit/materials/cases.h"
 #include "tests/unit/materials/walter.h"
@@ -145,5 +146,40 @@ TEST_CASE("so is that of stretched facets, to anisotropy 0.9; of 1 within 1e-2")
     const double bound = anisotropy == 1 ? 1e-2 : 1e-3;
     check_between(kGgx, 0.1, 1, anisotropy, bound);
     check_between(kBeckmann, 0.1, 1, anisotropy, bound);
+  }
+}
+
+TEST_CASE("rough glass under a film keeps its energy") {
+  constexpr double kDegrees[] = {0, 30, 60, 75, 85, 89, 89.9};
+  struct Row {
+    double anisotropy, most, bound;
+  };
+  for (const Row& row :
+       {Row{0, 600e-9, 1e-3}, {0, 5e-6, 1e-2}, {0.6, 600e-9, 1e-3}, {-0.9, 600e-9, 5e-3}}) {
+    Worst worst;
+    for (int k = 1; k <= (kSanitized ? 8 : 300); ++k) {
+      const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
+      const double index = 1.1 * std::pow(2.5 / 1.1, place(0.8192));
+      const double ior = k % 2 ? 1 / index : index, film = 1.2 + 1.2 * place(0.4503);
+      const double roughness = 0.05 + 0.95 * place(0.6710);
+      const double thickness = row.most * place(0.5497);
+      const auto alpha = materials::Alpha<double>::from(roughness, row.anisotropy);
+      const GgxFacets facets{alpha.ax, alpha.ay};
+      const Material m =
+          film_dielectric(ior, film, thickness, 550e-9, roughness, 1, 1, row.anisotropy);
+      const double degrees = kDegrees[k / 2 % 7];
+      const Vec3d wo = direction(degrees, kPi<double> / 2 * place(0.3019));
+      const double a = glass_albedo(
+          m, facets, ior, wo, [](Vec3d) { return 1.0; }, false,
+          [&](double c, double) {
+            return materials::Film<double>(film, thickness, 550e-9).split(c, 1.0, ior).reflected;
+          });
+      worst.meet(a, ior, roughness, degrees);
+      CHECK_MESSAGE(std::abs(a - 1) < row.bound, ior, " ", roughness, " ", film, " ",
+                    thickness * 1e9, " nm at ", degrees, ": ", a - 1);
+    }
+    MESSAGE("film of up to ", row.most * 1e9, " nm, anisotropy ", row.anisotropy,
+            ": largest |albedo - 1| of ", worst.cases, ": ", worst.error, ", at index ",
+            worst.where);
   }
 }

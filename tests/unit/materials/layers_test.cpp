@@ -149,6 +149,23 @@ TEST_CASE("a film that is not there is none") {
     }
 }
 
+TEST_CASE("rough glass under a film that is not there is bare") {
+  for (const double anisotropy : {0.0, 0.6}) {
+    const Material none = film_dielectric(1.5, 1.38, 0, 5e-7, 0.4, 0.9, 0.8, anisotropy),
+                   bare = dielectric(1.5, 0.4, 0.9, 0.8, anisotropy);
+    const materials::Layout a = none.layout(), b = bare.layout();
+    const auto pa = none.params<double>(), pb = bare.params<double>();
+    for (double degrees : {10.0, 60.0, 130.0})
+      for (double other : {20.0, 80.0, 160.0}) {
+        const Vec3d wo = direction(degrees, 0.4), wi = direction(other, 2.5);
+        const auto of_none = Bsdf<double>(a, pa.data()).evaluate(wo, wi, Mode::Radiance),
+                   of_bare = Bsdf<double>(b, pb.data()).evaluate(wo, wi, Mode::Radiance);
+        CHECK(of_none.f[0] == doctest::Approx(of_bare.f[0]).epsilon(1e-9));
+        CHECK(of_none.pdf[0] == doctest::Approx(of_bare.pdf[0]).epsilon(1e-9));
+      }
+  }
+}
+
 TEST_CASE("a quarter wave of the root of the index does not reflect") {
   const auto r = weights(film_dielectric(1.5, std::sqrt(1.5), 550e-9 / 4 / std::sqrt(1.5), 550e-9),
                          {0, 0, 1}, true);

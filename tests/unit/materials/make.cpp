@@ -72,10 +72,18 @@ Material film_conductor(Value n, Value k, Value film, double thickness, Value wa
   return m;
 }
 
-Material film_dielectric(Value ior, Value film, double thickness, Value wavelength) {
+Material film_dielectric(Value ior, Value film, double thickness, Value wavelength,
+                         double roughness, Value reflected, Value transmitted, double anisotropy) {
   Material m = node(Lobe::FilmDielectric, {}, {ior, film}, {thickness});
-  m.tree.nodes.back().params.resize(4);
-  m.numbers.insert(m.numbers.end(), wavelength.s.v.begin(), wavelength.s.v.end());
+  m.tree.nodes.back().params.resize(8);
+  const auto put = [&m](const Value& v) {
+    m.numbers.insert(m.numbers.end(), v.s.v.begin(), v.s.v.end());
+  };
+  put(wavelength);
+  m.numbers.push_back(roughness);
+  put(reflected);
+  put(transmitted);
+  m.numbers.push_back(anisotropy);
   return m;
 }
 

@@ -45,7 +45,9 @@ Material glossy(Value c, double gloss);
 Material tinted(Lobe lobe, Value c, std::vector<double> reals);
 Material film_conductor(Value n, Value k, Value film, double thickness, Value wavelength,
                         double roughness);
-Material film_dielectric(Value ior, Value film, double thickness, Value wavelength);
+Material film_dielectric(Value ior, Value film, double thickness, Value wavelength,
+                         double roughness = 0, Value reflected = 1, Value transmitted = 1,
+                         double anisotropy = 0);
 Material coat(Material top, Material base, double thickness, Value absorption, Value ior);
 Material microfacet(Value c, double roughness, double anisotropy = 0);
 Material beckmann(Value c, double roughness, double anisotropy = 0);

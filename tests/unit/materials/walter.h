@@ -6,6 +6,7 @@
 /// textbook's Fresnel, and of the model's value the rest.
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <utility>
 
@@ -64,11 +65,15 @@ inline double textbook_fresnel(double c, double eta) {
   return (s * s + p * p) / 2;
 }
 
+/// Of an interface at a relative index and a cosine where it does not reflect totally.
+using Reflectance = std::function<double(double c, double eta)>;
+
 /// An interface of facets between a near side, z > 0, and a far one of relative index `eta`.
 template <class Facets>
 struct Interface {
   Facets facets;
   double eta;
+  Reflectance reflectance = textbook_fresnel;
 
   /// What comes along `o` and leaves for good at the first facet, times `weight` of where it goes:
   /// the mean over the normals that are seen of both ways on, each with what masks it. A lattice of
@@ -82,7 +87,7 @@ struct Interface {
       for (int i = 0; i < n; ++i) {
         double seen = 0;
         const Vec3d h = facets.seen(o, (k + 0.5) / n, (i + offset) / n, seen);
-        const double c = dot(o, h), f = textbook_fresnel(c, eta);
+        const double c = dot(o, h), f = reflected(c);
         const Vec3d r = h * (2 * c) - o;
         if (r.z > 0) sum += seen * f * unmasked(o, r) * weight(r);
         if (f == 1) continue;
@@ -102,13 +107,16 @@ struct Interface {
     h = h * ((h.z < 0 ? -1 : 1) / norm);
     const double oh = dot(o, h), ih = dot(i, h);
     if (!(oh > 0) || (ih > 0) != reflects) return 0;
-    const double f = textbook_fresnel(oh, eta), zo = o.z, zi = std::abs(i.z);
+    const double f = reflected(oh), zo = o.z, zi = std::abs(i.z);
     const double g = 1 / (1 + facets.lambda(o) + facets.lambda(i));
     if (reflects) return f * facets.normals(h) * g / (4 * zo * zi);
     return oh * -ih / (zo * zi) * eta * eta * (1 - f) * g * facets.normals(h) / (norm * norm);
   }
 
  private:
+  double reflected(double c) const {
+    return c * c > (1 - eta) * (1 + eta) ? reflectance(c, eta) : 1;
+  }
   double unmasked(Vec3d o, Vec3d i) const {
     const double lo = facets.lambda(o);
     return (1 + lo) / (1 + lo + facets.lambda(i));
@@ -120,13 +128,14 @@ struct Interface {
 /// that is turned to +z as `wo` is.
 template <class Facets, class Weight>
 double glass_albedo(const Material& m, const Facets& facets, double ior, Vec3d wo,
-                    const Weight& weight, bool far = false) {
+                    const Weight& weight, bool far = false,
+                    const Reflectance& reflectance = textbook_fresnel) {
   const materials::Layout layout = m.layout();
   const auto p = m.params<double>();
   const materials::Bsdf<double> bsdf(layout, p.data());
   const auto choice = bsdf.choose(wo);
   const double side = wo.z > 0 ? 1 : -1;
-  const Interface<Facets> face{facets, wo.z > 0 ? ior : 1 / ior};
+  const Interface<Facets> face{facets, wo.z > 0 ? ior : 1 / ior, reflectance};
   const Vec3d up{wo.x, wo.y, wo.z * side};
   // The rest is alike in each quarter of a turn: in one across wo, where the first bounce is small.
   const int azimuths = facets.ax == facets.ay ? 1 : 12;

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// What facets of an interface lose under a film. Of light whose |cosine| at a facet is c on the
+/// side of the lower index, the film lets q(c) times as much through as is without it, and q - 1 is
+/// nearly a polynomial. So the loss is
+///
+///   l(w) - sum_k q_k D_k(w),   q(c) - 1 = sum_k q_k t_k(c),
+///
+/// where D_k is the mean over the facets that w sees of t_k(c) T(c) times how much less of what
+/// goes through than of what is reflected other facets take, T = 1 - F, and t_k is Chebyshev's
+/// polynomial of degree k over [0, 1]. Tables that are computed when the project is built
+/// (materials/tables/film.cpp) hold D_k over the sum of l and of what facets lose that are mirrors,
+/// which it never exceeds, of GGX facets: of round ones, and what stretched ones have above those
+/// as wide along w, as polynomials over the shape that they have along it (materials/energy.h).
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "materials/energy.h"
+#include "materials/fresnel.h"
+#include "materials/lobe.h"
+#include "materials/thin_film.h"
+
+namespace mms::materials {
+
+/// [0] where the index rises on the far side, [1] where it falls.
+struct FilmTables {
+  const float* loss[2];       ///< [alpha][index][direction][k], isotropic
+  const float* stretched[2];  ///< [width][index][direction][term of ShapeBasis][k]
+  const float* mean[2];       ///< [alpha][aspect][index][k]
+};
+extern const FilmTables kGgxFilm;
+
+namespace axes {
+inline constexpr int kFilmTerms = 6, kFilmAlpha = 18, kFilmIndex = 16, kFilmDirection[] = {36, 64};
+inline constexpr int kFilmMeanAlpha = 12, kFilmMeanAspect = 6;
+inline constexpr BentGrid kFilmBent[] = {{8, 10, 16, 6}, {10, 12, 24, 8}};
+
+/// Of indices from 1.0002 to 4, or their inverses.
+template <class R>
+inline R film_index(R eta) {
+  return (index(eta) - R(kLeastBentIndex)) / R(kMostBentIndex - kLeastBentIndex);
+}
+}  // namespace axes
+
+/// t_k(c) for each k.
+template <class R>
+inline std::array<R, axes::kFilmTerms> film_terms(R c) {
+  const R x = 2 * c - 1;
+  std::array<R, axes::kFilmTerms> t{1, x};
+  for (int k = 2; k < axes::kFilmTerms; ++k) t[k] = 2 * x * t[k - 1] - t[k - 2];
+  return t;
+}
+
+/// A loss, along a direction or of all, and what films change of it.
+template <class R>
+struct FilmedLoss {
+  R bare = 0, terms[axes::kFilmTerms] = {};
+
+  static FilmedLoss at(const FilmTables& tables, const InterfaceLoss<R>& loss,
+                       const FacetLoss<R>& mirrors, Vec3<R> w) {
+    FilmedLoss to{loss.at(w)};
+    quotients(tables, loss, w, to.terms);
+    for (R& term : to.terms) term *= to.bare + mirrors.at(w);
+    return to;
+  }
+
+  static FilmedLoss mean(const FilmTables& tables, const InterfaceLoss<R>& loss,
+                         const FacetLoss<R>& mirrors) {
+    using namespace axes;
+    const R wide = std::max(loss.ax, loss.ay), narrow = std::min(loss.ax, loss.ay);
+    const int n2 = kFilmTerms, n1 = n2 * coefficients(kFilmIndex),
+              n0 = n1 * coefficients(kFilmMeanAspect);
+    FilmedLoss to{loss.mean()};
+    add_terms(to.terms, kFilmTerms, tables.mean[loss.eta < 1], to.bare + mirrors.mean(),
+              Stencil<R>::at(interface_alpha(std::sqrt(wide * narrow)), kFilmMeanAlpha), n0,
+              Stencil<R>::at(aspect(wide / narrow), kFilmMeanAspect), n1,
+              Stencil<R>::at(film_index(loss.eta), kFilmIndex), n2);
+    return to;
+  }
+
+  /// Adds what the tables hold along `w`.
+  static void quotients(const FilmTables& tables, const InterfaceLoss<R>& loss, Vec3<R> w,
+                        R (&sums)[axes::kFilmTerms]) {
+    using namespace axes;
+    const bool falls = loss.eta < 1;
+    const R z = std::abs(w.z), s = std::sqrt(w.x * w.x + w.y * w.y);
+    const StretchedInterface<R> f = loss.stretched({w.x, w.y, z});
+    const R alpha = loss.ax == loss.ay ? loss.ax : f.like();
+    const auto add = [&](R* to, int terms, const float* table, const Stencil<R>& width, int indices,
+                         int directions) {
+      const int n1 = terms * coefficients(directions), n0 = n1 * coefficients(indices);
+      add_terms(to, terms, table, R(1), width, n0, Stencil<R>::at(film_index(loss.eta), indices),
+                n1, Stencil<R>::at(interface_direction(z, s, alpha, loss.eta), directions), terms);
+    };
+    add(sums, kFilmTerms, tables.loss[falls], Stencil<R>::at(interface_alpha(alpha), kFilmAlpha),
+        kFilmIndex, kFilmDirection[falls]);
+    if (loss.ax == loss.ay) return;
+    const BentGrid& grid = kFilmBent[falls];
+    R shapes[ShapeBasis<R>::kMost * kFilmTerms] = {};
+    const int terms = ShapeBasis<R>::terms(grid.degree);
+    add(shapes, terms * kFilmTerms, tables.stretched[falls],
+        Stencil<R>::at(bent_width(alpha), grid.width), grid.index, grid.direction);
+    const ShapeBasis<R> basis(f.shape(R(kWidening)), grid.degree);
+    for (int t = 0; t < terms; ++t)
+      for (int k = 0; k < kFilmTerms; ++k) sums[k] += basis.value[t] * shapes[t * kFilmTerms + k];
+  }
+};
+
+/// What a film does to losses.
+template <class R>
+struct FilmLaw {
+  R q[axes::kFilmTerms] = {};
+
+  FilmLaw() = default;
+  /// Between outside and the index `n`. Fringes beyond one and a half fade: what many facets lose
+  /// together does not follow them.
+  FilmLaw(Film<R> film, R n) {
+    const R near = std::min(n, R(1)), far = std::max(n, R(1)), eta = far / near;
+    film.ior /= near;  // lengths of the wavelength there
+    film.phases *= near;
+    const R more = std::max(film.fringes - R(1.5), R(0)), contrast = std::exp(-more * more);
+    for (int i = 0; i < kPoints; ++i) {
+      const R c = R(points()[i]);
+      const R through = film.ior < 1 ? film.split(c, R(1), eta).transmitted
+                                     : film.faded_split(c, eta, contrast).transmitted;
+      const R bare = fresnel_split(c, eta).transmitted;
+      const R change = bare > 0 ? limited(through / bare - 1, R(-1), R(1e3)) : R(0);
+      const auto terms = film_terms(c);
+      for (int k = 0; k < axes::kFilmTerms; ++k)
+        q[k] += change * terms[k] * R(k == 0 ? 1 : 2) / R(kPoints);
+    }
+  }
+
+  R of(const FilmedLoss<R>& loss) const {
+    R l = loss.bare;
+    for (int k = 0; k < axes::kFilmTerms; ++k) l -= q[k] * loss.terms[k];
+    return limited(l, loss.bare / 100, R(1));
+  }
+
+ private:
+  static constexpr int kPoints = 8;
+  /// Chebyshev's points, where sums over two of his polynomials' products vanish.
+  static const std::array<double, kPoints>& points() {
+    static const auto at = [] {
+      std::array<double, kPoints> points{};
+      for (int i = 0; i < kPoints; ++i)
+        points[i] = (1 + std::cos(kPi<double> * (i + 0.5) / kPoints)) / 2;
+      return points;
+    }();
+    return at;
+  }
+};
+
+}  // namespace mms::materials

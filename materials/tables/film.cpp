@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// Computes the tables of materials/film_energy.h and writes them as C++ to the named file: run by
+// the build, in a minute of one core.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/quadrature.h"
+#include "materials/facets.h"
+#include "materials/film_energy.h"
+#include "materials/tables/grid.h"
+#include "materials/tables/losses.h"
+#include "materials/tables/shapes.h"
+#include "materials/tables/slopes.h"
+
+namespace mms::materials::tables {
+namespace {
+
+using Changes = Numbers<axes::kFilmTerms>;
+
+double alpha_at(double place) { return std::max(place * place * place, 1e-5); }
+
+/// The relative index of a place on its axis; `rising`: above 1.
+double index_at(double place, bool rising) {
+  using namespace axes;
+  const double x = std::pow(kLeastBentIndex + (kMostBentIndex - kLeastBentIndex) * place, 4);
+  return rising ? (1 + x) / (1 - x) : (1 - x) / (1 + x);
+}
+
+/// D_k along `w`, and what it is measured in, the last.
+auto changes(const Ggx<double>& facets, double eta, Vec3d w) {
+  constexpr int terms = axes::kFilmTerms;
+  return interface_mean(facets, eta, w, 24, [eta](const Way& up, const Way& down) {
+    Numbers<terms + 1> to;
+    const auto t = film_terms(eta < 1 ? down.facet : up.facet);
+    for (int k = 0; k < terms; ++k) to.of[k] = t[k] * down.share * (up.taken - down.taken);
+    to.of[terms] = up.taken + up.share * up.taken + down.share * down.taken;
+    return to;
+  });
+}
+
+/// Over that.
+Changes quotients(const Numbers<axes::kFilmTerms + 1>& changes) {
+  Changes to;
+  for (int k = 0; k < axes::kFilmTerms; ++k)
+    to.of[k] = changes.of[k] / std::max(changes.of[axes::kFilmTerms], 1e-300);
+  return to;
+}
+Changes quotients(const Ggx<double>& facets, double eta, Vec3d w) {
+  return quotients(changes(facets, eta, w));
+}
+
+/// |Cosine| at a place along an axis of directions.
+double cosine_at(double place, double alpha, double eta) {
+  const double c = cosine(std::min(place, 1 - kLeast), [&](double z, double s) {
+    return axes::interface_direction(z, s, alpha, eta);
+  });
+  return std::max(c, kLeast * alpha);
+}
+
+const auto kZero = [](const double*) { return 0.0; };
+
+std::vector<float> write(const TableFiles& to, const std::string& name, const Grid& grid,
+                         int kept) {
+  const std::vector<double> spline = grid.spline(kept);
+  const std::vector<float> numbers(spline.begin(), spline.end());
+  write_numbers(to, name, numbers);
+  return numbers;
+}
+
+/// Of round facets.
+Grid round_quotients(bool rising) {
+  using namespace axes;
+  const int directions = kFilmDirection[!rising];
+  Grid grid({kFilmAlpha, kFilmIndex, directions, kFilmTerms}, kZero);
+  parallel(kFilmAlpha * kFilmIndex, [&](int i) {
+    const double alpha = alpha_at(double(i / kFilmIndex) / (kFilmAlpha - 1));
+    const double eta = index_at(double(i % kFilmIndex) / (kFilmIndex - 1), rising);
+    for (int d = 0; d < directions; ++d) {
+      const double z = cosine_at(double(d) / (directions - 1), alpha, eta);
+      const Changes of = quotients({{alpha, alpha}}, eta, {std::sqrt(1 - z * z), 0, z});
+      std::copy(of.of.begin(), of.of.end(), &grid.values[(i * directions + d) * kFilmTerms]);
+    }
+  });
+  return grid;
+}
+
+/// What stretched ones have above those.
+Grid stretched_quotients(bool rising, const FilmTables& round) {
+  using namespace axes;
+  const auto [widths, indices, directions, degree] = kFilmBent[!rising];
+  const ShapeFit shapes(degree);
+  const int terms = shapes.terms();
+  Grid grid({widths, indices, directions, terms * kFilmTerms}, kZero);
+  parallel(widths * indices, [&](int i) {
+    const double place = double(i / indices) / (widths - 1);
+    const double like = std::pow(kLeastBentRoot + (1 - kLeastBentRoot) * place, 2);
+    const double eta = index_at(double(i % indices) / (indices - 1), rising);
+    for (int d = 0; d < directions; ++d) {
+      const double z = cosine_at(double(d) / (directions - 1), like, eta), s = std::sqrt(1 - z * z);
+      double same[kFilmTerms] = {};
+      FilmedLoss<double>::quotients(round, {nullptr, like, like, eta}, {s, 0, z}, same);
+      std::vector<double> values[kFilmTerms];
+      for (int shape = 0; shape < shapes.count(); ++shape) {
+        auto seen = shapes.facets(shape);
+        const double along = std::hypot(seen.wide * seen.x, seen.narrow * seen.y);
+        const double root = like / (along + like * (1 - along));  // the inverse of like()
+        const Changes of =
+            quotients({{seen.wide * root, seen.narrow * root}}, eta, {s * seen.x, s * seen.y, z});
+        for (int k = 0; k < kFilmTerms; ++k) values[k].push_back(of.of[k] - same[k]);
+      }
+      for (int t = 0; t < terms; ++t)
+        for (int k = 0; k < kFilmTerms; ++k)
+          grid.values[((i * directions + d) * terms + t) * kFilmTerms + k] =
+              shapes.term(t, values[k].data());
+    }
+  });
+  return grid;
+}
+
+/// Of what the tables say, the mean over the hemisphere of D_k and of what it is measured in.
+Changes mean_quotients(const FilmTables& tables, const Ggx<double>& facets, double eta) {
+  const double a2 = facets.ax * facets.ay, log = std::log1p(1 / a2);
+  const double critical2 = std::max(0.0, (1 - eta) * (1 + eta));
+  const double at = std::log1p(critical2 / a2) / log;  // points crowd about it
+  const InterfaceLoss<double> loss{&facets.interface(), facets.ax, facets.ay, eta};
+  const FacetLoss<double> mirrors{&facets.tables(), facets.ax, facets.ay};
+  Numbers<axes::kFilmTerms + 1> sum;
+  const double aspect = facets.ax / facets.ay;
+  for (const double reach : {-at, 1 - at}) {
+    if (reach == 0) continue;
+    constexpr int panels = 6;
+    for (int n = 0; n < 8 * panels; ++n) {
+      const double t = (n / 8 + gauss<8>().x[n % 8]) / panels, u = at + reach * t * t * t;
+      const double z2 = std::min(1.0, a2 * std::expm1(u * log)), s = std::sqrt(1 - z2);
+      const double weight = (z2 + a2) * gauss<8>().w[n % 8] * std::abs(reach) * t * t;
+      sum +=
+          quarter_mean(aspect, aspect > 1 ? 12 : 1,
+                       [&](double x, double y) {
+                         const Vec3d w{s * x, s * y, std::sqrt(z2)};
+                         const auto along = FilmedLoss<double>::at(tables, loss, mirrors, w);
+                         Numbers<axes::kFilmTerms + 1> to;
+                         std::copy(std::begin(along.terms), std::end(along.terms), to.of.begin());
+                         to.of.back() = along.bare + mirrors.at(w);
+                         return to;
+                       }) *
+          weight;
+    }
+  }
+  return quotients(sum);
+}
+
+Grid means(bool rising, const FilmTables& tables) {
+  using namespace axes;
+  Grid grid({kFilmMeanAlpha, kFilmMeanAspect, kFilmIndex, kFilmTerms}, kZero);
+  parallel(kFilmMeanAlpha * kFilmMeanAspect * kFilmIndex, [&](int i) {
+    const double alpha =
+        alpha_at(double(i / (kFilmMeanAspect * kFilmIndex)) / (kFilmMeanAlpha - 1));
+    const double wide =
+        alpha * std::pow(10, double(i / kFilmIndex % kFilmMeanAspect) / (kFilmMeanAspect - 1) / 2);
+    const double eta = index_at(double(i % kFilmIndex) / (kFilmIndex - 1), rising);
+    const Changes of = mean_quotients(tables, {{wide, alpha * alpha / wide}}, eta);
+    std::copy(of.of.begin(), of.of.end(), &grid.values[i * kFilmTerms]);
+  });
+  return grid;
+}
+
+void write_side(const TableFiles& to, const std::string& name, bool rising) {
+  FilmTables tables{};
+  const auto round = write(to, name, round_quotients(rising), 1);
+  tables.loss[!rising] = round.data();
+  const auto stretched = write(to, name + "Stretched", stretched_quotients(rising, tables), 1);
+  tables.stretched[!rising] = stretched.data();
+  write(to, name + "Mean", means(rising, tables), 1);
+}
+
+}  // namespace
+}  // namespace mms::materials::tables
+
+int main(int argc, char** argv) {
+  using namespace mms::materials;
+  return tables::make_tables(argc, argv, [](const tables::TableFiles& to) {
+    tables::write_side(to, "kGgxFilmDense", true);
+    tables::write_side(to, "kGgxFilmRare", false);
+  });
+}
