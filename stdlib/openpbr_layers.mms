@@ -227,8 +227,8 @@ material openpbr(
             if transmission_dispersion_scale > 0.0;
         spectrum(specular_ior) otherwise;
     end;
-    width = openpbr_stretched(specular_roughness, specular_roughness_anisotropy);
-    clean = dielectric(bent, width.roughness, specular_color, tint, width.anisotropy);
+    width  = openpbr_stretched(specular_roughness, specular_roughness_anisotropy);
+    clean  = dielectric(bent, width.roughness, specular_color, tint, width.anisotropy);
     tinged = film_dielectric(
         bent, thin_film_ior, film, $wavelength, width.roughness, specular_color, tint,
         width.anisotropy

@@ -222,7 +222,8 @@ constexpr Lobe kToTheBit[] = {
 bool refracts_at_facets(const Material& m) {
   return std::any_of(m.tree.nodes.begin(), m.tree.nodes.end(), [](const vm::LayoutNode& n) {
     const auto lobe = static_cast<Lobe>(n.lobe);
-    return lobe == Lobe::Dielectric || lobe == Lobe::BeckmannDielectric;
+    return lobe == Lobe::Dielectric || lobe == Lobe::BeckmannDielectric ||
+           lobe == Lobe::FilmDielectric;
   });
 }
 
