@@ -80,6 +80,32 @@ material openpbr_metal(
         saturate(film_weight)
     );
 
+/// OpenPBR's transmission where it is thin-walled: a sheet that light goes straight through. Clear it
+/// is a `slab`; rough or under a film it reflects as the one interface that reflects as much along
+/// the normal, and blurs what is behind it as both its faces bend light.
+/// >>> openpbr_sheet(1.5, 0.0, 0.0, 1.0, 0.8, 0.0, 500nm, 1.4)
+/// >>> openpbr_sheet(1.5, 0.3, 0.0, 1.0, 0.8, 0.5, 500nm, 1.4)
+material openpbr_sheet(
+    real ior, roughness, anisotropy,
+    spectrum reflected, transmitted,
+    real film_weight, thickness, film_ior
+)
+    root    = (ior - 1.0) / (ior + 1.0);
+    faces   = sqrt(2.0 * root * root / (1.0 + root * root));
+    index   = (1.0 + faces) / (1.0 - faces);
+    blur    = max(abs(ior - 1.0) * roughness * roughness, 1e-6);
+    through = glossy_through(transmitted, 1.0 / (blur * blur), 1.0 / (blur * blur));
+    gloss   = openpbr_gloss(reflected, roughness, anisotropy);
+    bare    = fresnel_mix(through, gloss, index);
+    filmed  = film_mix(through, gloss, index, film_ior, thickness, $wavelength);
+    return select
+        slab(ior, 1.0, absorption_from(transmitted, 1.0)),
+            if roughness <= 0.0 and film_weight <= 0.0;
+        bare, if film_weight <= 0.0;
+        filmed, if film_weight >= 1.0;
+        mix(bare, filmed, film_weight) otherwise;
+    end;
+
 /// OpenPBR's emission, for the output `emission`: white is D65 of that luminance in candela per
 /// square metre. A coat takes its colour of it once.
 /// >>> openpbr_emission(683.002 * 105.671) / illuminant_d65($wavelength)
@@ -238,7 +264,10 @@ material openpbr(
         tinged, if thin_film_weight >= 1.0;
         mix(clean, tinged, thin_film_weight) otherwise;
     end;
-    pane  = slab(specular_ior, 1.0, absorption_from(transmission_color, 1.0));
+    pane = openpbr_sheet(
+        specular_ior, specular_roughness, specular_roughness_anisotropy, specular_color,
+        transmission_color, thin_film_weight, film, thin_film_ior
+    );
     clear = select pane, if geometry_thin_walled; glass otherwise; end;
 
     metal = saturate(specular_weight) * openpbr_metal(
