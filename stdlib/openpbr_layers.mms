@@ -27,6 +27,16 @@ real openpbr_index_below(real ior, weight, coat_ior, coat_weight)
     n    = select over, if over >= 1.0; 1.0 / max(over, 1e-3) otherwise; end;
     return openpbr_index(n, weight);
 
+/// Roughness of what is specular under a coat: light that passes a rough one twice is spread by it
+/// too, and the squares of alphas add (as OpenPBR).
+/// >>> openpbr_roughness_below(0.3, 0.8, 0.0)
+/// 0.3
+/// >>> openpbr_roughness_below(0.0, 0.5, 1.0)
+/// 0.594603...
+real openpbr_roughness_below(real roughness, coat_roughness, coat_weight)
+    wide = sqrt(sqrt(min(roughness^4 + 2.0 * coat_roughness^4, 1.0)));
+    return mix(roughness, wide, saturate(coat_weight));
+
 /// The roughness and the anisotropy of the library's facets that are as wide along both axes as
 /// OpenPBR says. `anisotropy` is in [0, 1], up to 0.9 exact.
 /// >>> openpbr_stretched(0.3, 0.0).roughness
@@ -233,9 +243,10 @@ material openpbr(
             if geometry_thin_walled;
         translucent(1.0) otherwise;
     end;
+    rough  = openpbr_roughness_below(specular_roughness, coat_roughness, coat_weight);
     below  = openpbr_index_below(specular_ior, specular_weight, coat_ior, coat_weight);
     within = mix(diffuse, deep, saturate(subsurface_weight));
-    gloss  = openpbr_gloss(specular_color, specular_roughness, specular_roughness_anisotropy);
+    gloss  = openpbr_gloss(specular_color, rough, specular_roughness_anisotropy);
     bare   = fresnel_mix(within, gloss, below);
     filmed = film_mix(within, gloss, below, thin_film_ior, film, $wavelength);
     opaque = select
@@ -245,15 +256,16 @@ material openpbr(
     end;
 
     tint = select transmission_color, if transmission_depth <= 0.0; spectrum(1.0) otherwise; end;
+    ior  = openpbr_index(specular_ior, specular_weight);
     bent = select
         abbe_glass(
-            specular_ior,
+            ior,
             max(transmission_dispersion_abbe_number, 1e-3) / transmission_dispersion_scale
         ),
             if transmission_dispersion_scale > 0.0;
-        spectrum(specular_ior) otherwise;
+        spectrum(ior) otherwise;
     end;
-    width  = openpbr_stretched(specular_roughness, specular_roughness_anisotropy);
+    width  = openpbr_stretched(rough, specular_roughness_anisotropy);
     clean  = dielectric(bent, width.roughness, specular_color, tint, width.anisotropy);
     tinged = film_dielectric(
         bent, thin_film_ior, film, $wavelength, width.roughness, specular_color, tint,
@@ -265,13 +277,13 @@ material openpbr(
         mix(clean, tinged, thin_film_weight) otherwise;
     end;
     pane = openpbr_sheet(
-        specular_ior, specular_roughness, specular_roughness_anisotropy, specular_color,
+        ior, rough, specular_roughness_anisotropy, specular_color,
         transmission_color, thin_film_weight, film, thin_film_ior
     );
     clear = select pane, if geometry_thin_walled; glass otherwise; end;
 
     metal = saturate(specular_weight) * openpbr_metal(
-        base, specular_color, specular_roughness, specular_roughness_anisotropy,
+        base, specular_color, rough, specular_roughness_anisotropy,
         thin_film_weight, film, thin_film_ior
     );
     body = mix(

@@ -125,6 +125,9 @@ TEST_CASE("openpbr: its lossless settings keep all light") {
       {"frosted pane under a film",
        {{"geometry_thin_walled", "true"}, {"transmission_weight", "1"}, {"thin_film_weight", "1"}},
        3e-4},
+      {"glass that is not specular",  // goes straight through
+       {{"transmission_weight", "1"}, {"specular_weight", "0"}},
+       1e-5},
       {"film on rough glass",
        {{"transmission_weight", "1"},
         {"specular_roughness", "0.6"},
@@ -242,6 +245,31 @@ TEST_CASE("openpbr: highlights are those of GGX, whose alpha is the square of th
         CHECK(double(f[0]) == doctest::Approx(f0 * ggx(roughness, c, tilt)).epsilon(0.03));
       }
     }
+}
+
+TEST_CASE("openpbr: a rough coat roughens what is below") {
+  // A coat of index 1 is seen by that alone; 0.3^4 + 2 0.4^4 = 0.4941^4.
+  for (const char* what : {"base_metalness", "transmission_weight"}) {
+    INFO(what);
+    const OpenPbr coated({{what, "1"},
+                          {"specular_roughness", "0.3"},
+                          {"coat_weight", "1"},
+                          {"coat_ior", "1"},
+                          {"coat_roughness", "0.4"}}),
+        bare({{what, "1"}, {"specular_roughness", std::to_string(std::pow(0.0593, 0.25))}});
+    REQUIRE_MESSAGE(coated.context, coated.log);
+    REQUIRE_MESSAGE(bare.context, bare.log);
+    const float wavelengths[8] = {550e-9f, 430e-9f, 470e-9f, 510e-9f,
+                                  590e-9f, 630e-9f, 670e-9f, 710e-9f};
+    const MMsInput input{"wavelength", wavelengths};
+    const MMsPoints points{1, &input, 1};
+    const float wo[3] = {0.6f, 0, 0.8f}, wi[3] = {-0.48f, 0.36f, 0.8f};
+    float f[8], g[8];
+    REQUIRE(mmsEvalBsdf(coated.context, coated.surface(), &points, wo, wi, f));
+    REQUIRE(mmsEvalBsdf(bare.context, bare.surface(), &points, wo, wi, g));
+    CHECK(g[0] > 1e-3f);
+    CHECK(f[0] == doctest::Approx(g[0]).epsilon(1e-4));
+  }
 }
 
 TEST_CASE("openpbr: every level of optimisation gives the same bits") {
