@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/film_energy.h and writes them as C++ to the named file: run by
-// the build, in a minute of one core.
+// the build, in half a minute of one core.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -63,9 +63,8 @@ double cosine_at(double place, double alpha, double eta) {
 
 const auto kZero = [](const double*) { return 0.0; };
 
-std::vector<float> write(const TableFiles& to, const std::string& name, const Grid& grid,
-                         int kept) {
-  const std::vector<double> spline = grid.spline(kept);
+std::vector<float> write(const TableFiles& to, const std::string& name, const Grid& grid) {
+  const std::vector<double> spline = grid.spline(1);
   const std::vector<float> numbers(spline.begin(), spline.end());
   write_numbers(to, name, numbers);
   return numbers;
@@ -128,26 +127,26 @@ Changes mean_quotients(const FilmTables& tables, const Ggx<double>& facets, doub
   const double at = std::log1p(critical2 / a2) / log;  // points crowd about it
   const InterfaceLoss<double> loss{&facets.interface(), facets.ax, facets.ay, eta};
   const FacetLoss<double> mirrors{&facets.tables(), facets.ax, facets.ay};
-  Numbers<axes::kFilmTerms + 1> sum;
+  const auto changes = [&](Vec3d w) {
+    const auto along = FilmedLoss<double>::at(tables, loss, mirrors, w);
+    Numbers<axes::kFilmTerms + 1> to;
+    std::copy(std::begin(along.terms), std::end(along.terms), to.of.begin());
+    to.of.back() = along.bare + mirrors.at(w);
+    return to;
+  };
   const double aspect = facets.ax / facets.ay;
+  Numbers<axes::kFilmTerms + 1> sum;
   for (const double reach : {-at, 1 - at}) {
     if (reach == 0) continue;
     constexpr int panels = 6;
     for (int n = 0; n < 8 * panels; ++n) {
       const double t = (n / 8 + gauss<8>().x[n % 8]) / panels, u = at + reach * t * t * t;
-      const double z2 = std::min(1.0, a2 * std::expm1(u * log)), s = std::sqrt(1 - z2);
-      const double weight = (z2 + a2) * gauss<8>().w[n % 8] * std::abs(reach) * t * t;
-      sum +=
-          quarter_mean(aspect, aspect > 1 ? 12 : 1,
-                       [&](double x, double y) {
-                         const Vec3d w{s * x, s * y, std::sqrt(z2)};
-                         const auto along = FilmedLoss<double>::at(tables, loss, mirrors, w);
-                         Numbers<axes::kFilmTerms + 1> to;
-                         std::copy(std::begin(along.terms), std::end(along.terms), to.of.begin());
-                         to.of.back() = along.bare + mirrors.at(w);
-                         return to;
-                       }) *
-          weight;
+      const double z2 = std::min(1.0, a2 * std::expm1(u * log)), z = std::sqrt(z2),
+                   s = std::sqrt(1 - z2);
+      const auto mean = quarter_mean(aspect, aspect > 1 ? 12 : 1, [&](double x, double y) {
+        return changes({s * x, s * y, z});
+      });
+      sum += mean * ((z2 + a2) * gauss<8>().w[n % 8] * std::abs(reach) * t * t);
     }
   }
   return quotients(sum);
@@ -170,11 +169,11 @@ Grid means(bool rising, const FilmTables& tables) {
 
 void write_side(const TableFiles& to, const std::string& name, bool rising) {
   FilmTables tables{};
-  const auto round = write(to, name, round_quotients(rising), 1);
+  const auto round = write(to, name, round_quotients(rising));
   tables.loss[!rising] = round.data();
-  const auto stretched = write(to, name + "Stretched", stretched_quotients(rising, tables), 1);
+  const auto stretched = write(to, name + "Stretched", stretched_quotients(rising, tables));
   tables.stretched[!rising] = stretched.data();
-  write(to, name + "Mean", means(rising, tables), 1);
+  write(to, name + "Mean", means(rising, tables));
 }
 
 }  // namespace
