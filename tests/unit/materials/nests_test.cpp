@@ -69,7 +69,7 @@ class Nests {
   }
 
   Material base() {
-    const int kind = int(8 * random_.next());
+    const int kind = int(9 * random_.next());
     if (kind < 2) return reflecting();
     const double ior = random_.between(1.1, 2.1), r = random_.next();
     text += "base " + std::to_string(kind) + " of " + std::to_string(ior) + " " + std::to_string(r);
@@ -84,6 +84,9 @@ class Nests {
         return glossy_refraction(random_.next() < 0.2 ? 1 / ior : ior, {100 * r, 10 * r});
       case 6:
         return tinted(Lobe::GlossyThrough, 1, {100 * r, 10 * r});
+      case 7:
+        return film_dielectric(ior, 1 + random_.next(), 6e-7 * random_.next(), 5.5e-7,
+                               0.1 + 0.9 * r);
       default:
         return mix(matte(1), dielectric(ior, r < 0.5 ? 0 : r), random_.next());
     }
