@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -247,8 +248,23 @@ TEST_CASE("openpbr: highlights are those of GGX, whose alpha is the square of th
     }
 }
 
+/// f towards `wi` of light along a direction 37 degrees from the normal, at the first wavelength.
+float value(const OpenPbr& p, const std::array<float, 3>& wi) {
+  const float wavelengths[8] = {550e-9f, 430e-9f, 470e-9f, 510e-9f,
+                                590e-9f, 630e-9f, 670e-9f, 710e-9f};
+  const MMsInput input{"wavelength", wavelengths};
+  const MMsPoints points{1, &input, 1};
+  const float wo[3] = {0.6f, 0, 0.8f};
+  float f[8];
+  REQUIRE_MESSAGE(p.context, p.log);
+  REQUIRE(mmsEvalBsdf(p.context, p.surface(), &points, wo, wi.data(), f));
+  return f[0];
+}
+
+constexpr std::array<float, 3> kReflected{-0.48f, 0.36f, 0.8f}, kTransmitted{-0.48f, 0.1f, -0.87f};
+
 TEST_CASE("openpbr: a rough coat roughens what is below") {
-  // A coat of index 1 is seen by that alone; 0.3^4 + 2 0.4^4 = 0.4941^4.
+  // A coat of index 1 is seen by that alone; 0.3^4 + 2 0.4^4 = 0.0593.
   for (const char* what : {"base_metalness", "transmission_weight"}) {
     INFO(what);
     const OpenPbr coated({{what, "1"},
@@ -257,19 +273,31 @@ TEST_CASE("openpbr: a rough coat roughens what is below") {
                           {"coat_ior", "1"},
                           {"coat_roughness", "0.4"}}),
         bare({{what, "1"}, {"specular_roughness", std::to_string(std::pow(0.0593, 0.25))}});
-    REQUIRE_MESSAGE(coated.context, coated.log);
-    REQUIRE_MESSAGE(bare.context, bare.log);
-    const float wavelengths[8] = {550e-9f, 430e-9f, 470e-9f, 510e-9f,
-                                  590e-9f, 630e-9f, 670e-9f, 710e-9f};
-    const MMsInput input{"wavelength", wavelengths};
-    const MMsPoints points{1, &input, 1};
-    const float wo[3] = {0.6f, 0, 0.8f}, wi[3] = {-0.48f, 0.36f, 0.8f};
-    float f[8], g[8];
-    REQUIRE(mmsEvalBsdf(coated.context, coated.surface(), &points, wo, wi, f));
-    REQUIRE(mmsEvalBsdf(bare.context, bare.surface(), &points, wo, wi, g));
-    CHECK(g[0] > 1e-3f);
-    CHECK(f[0] == doctest::Approx(g[0]).epsilon(1e-4));
+    CHECK(value(bare, kReflected) > 1e-3f);
+    CHECK(value(coated, kReflected) == doctest::Approx(value(bare, kReflected)).epsilon(1e-4));
   }
+}
+
+TEST_CASE("openpbr: clear matter is as rough as it is said to be, and tinted") {
+  for (const bool thin : {false, true})
+    for (const char* film : {"0", "0.5", "1"}) {
+      INFO(thin, " ", film);
+      const auto seen = [&](const char* roughness, const char* colour) {
+        return OpenPbr({{"transmission_weight", "1"},
+                        {"geometry_thin_walled", thin ? "true" : "false"},
+                        {"thin_film_weight", film},
+                        {"specular_roughness", roughness},
+                        {"specular_color", colour},
+                        {"transmission_color", colour}});
+      };
+      const OpenPbr polished = seen("0", "spectrum(1.0)"), rough = seen("0.6", "spectrum(1.0)"),
+                    grey = seen("0.6", "spectrum(0.5)");
+      for (const auto& wi : {kReflected, kTransmitted}) {
+        CHECK(value(polished, wi) == 0);
+        CHECK(value(rough, wi) > 1e-3f);
+        CHECK(value(grey, wi) < 0.6f * value(rough, wi));
+      }
+    }
 }
 
 TEST_CASE("openpbr: every level of optimisation gives the same bits") {
