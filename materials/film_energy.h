@@ -118,10 +118,9 @@ struct FilmLaw {
   FilmLaw() = default;
   /// Between outside and the index `n`. Fringes beyond one and a half fade: what many facets lose
   /// together does not follow them.
-  FilmLaw(Film<R> film, R n) {
+  FilmLaw(const Film<R>& outside, R n) {
     const R near = std::min(n, R(1)), far = std::max(n, R(1)), eta = far / near;
-    film.ior /= near;  // lengths of the wavelength there
-    film.phases *= near;
+    const Film<R> film = outside.in(near);
     const R more = std::max(film.fringes - R(1.5), R(0)), contrast = std::exp(-more * more);
     for (int i = 0; i < kPoints; ++i) {
       const R c = R(points()[i]);

@@ -19,14 +19,22 @@ template <class R>
 struct Film {
   R ior = 1;      ///< of the film
   R phases = 0;   ///< 2 pi thickness / wavelength
-  R fringes = 0;  ///< between the normal and grazing, seen from outside (index 1)
+  R fringes = 0;  ///< between the normal and grazing, seen from where the index is 1
 
   Film() = default;
   Film(R index, R thickness, R wavelength) : ior(index > 0 ? limited(index, R(0.1), R(10)) : R(1)) {
     // Beyond 1e4 wavelengths nothing interferes, and the phase would have no digits.
     const R turns = non_negative(thickness) / (wavelength > 0 ? wavelength : R(550e-9));
     phases = 2 * kPi<R> * limited(turns, R(0), R(1e4));
-    fringes = phases * (ior - std::sqrt(std::max((ior - 1) * (ior + 1), R(0)))) / kPi<R>;
+    count_fringes();
+  }
+  /// The same where indices are measured in that of a medium `near`, which then counts as 1.
+  Film in(R near) const {
+    Film to = *this;
+    to.ior /= near;
+    to.phases *= near;
+    to.count_fringes();
+    return to;
   }
 
   /// Whether there is one.
@@ -89,6 +97,10 @@ struct Film {
 
  private:
   using C = std::complex<R>;
+
+  void count_fringes() {
+    fringes = phases * (ior - std::sqrt(std::max((ior - 1) * (ior + 1), R(0)))) / kPi<R>;
+  }
 
   /// (n cos)^2 in a medium of index `n`, as in refraction_g2 where the sine is near sin.
   template <class T>
