@@ -5,8 +5,8 @@
 /// A film (materials/thin_film.h) over metal (`film_conductor`) or glass (`film_dielectric`), which
 /// both may be rough: facets are larger than the film is thick, and each has its colours. What
 /// light between facets of metal reflects is taken as for a bare one. Rough glass keeps its energy
-/// within 3e-4 under films of up to 600 nm at 550 nm, 2e-3 at anisotropy 0.9, and 1e-2 under
-/// thicker ones, 2e-2 at anisotropy 0.9 (materials/film_energy.h).
+/// within 3e-4 under films of up to 600 nm at 550 nm, 3e-3 at anisotropy 0.9 or where its index is
+/// below 1, and 1e-2 under thicker ones, 2e-2 at anisotropy 0.9 (materials/film_energy.h).
 
 #include <complex>
 
