@@ -92,18 +92,11 @@ struct RoughInterface {
 
   SpecularTerms<R> terms(Vec3<R> wo) const {
     const R c = std::min(std::abs(wo.z), R(1));
-    SpecularTerms<R> t;
     FresnelSplit<R> s;
-    for (int j = 0; j < kWavelengths; ++j) {
-      t.eta[j] = relative_eta(ior[j], wo);
-      if (!repeated(j)) s = face.split(j, c, t.eta[j], wo.z > 0);
-      const Choice choice = choose(j, s);
-      t.reflect_weight[j] = s.reflected * reflected[j];
-      t.transmit_weight[j] = s.transmitted * transmitted[j];
-      t.reflect_probability[j] = choice.reflect;
-      t.transmit_probability[j] = choice.transmit;
-    }
-    return t;
+    return interface_terms(ior, wo, reflected, transmitted, [&](int j, R eta) {
+      if (!repeated(j)) s = face.split(j, c, eta, wo.z > 0);
+      return s;
+    });
   }
 
   /// Whether it is known what coats send back, `coats` being as in SentBack::smooth.

@@ -139,16 +139,17 @@ struct InterfaceSplits {
   }
 };
 
-/// The deltas of a smooth interface: Fresnel's factor and the rest, tinted.
-template <class R>
+/// The deltas of a smooth interface, tinted: `split(j, eta)` is what it reflects and lets through
+/// of light along `wo` at wavelength j.
+template <class R, class Split>
 inline SpecularTerms<R> interface_terms(const R* ior, Vec3<R> wo, const Spectrum<R>& reflected,
-                                        const Spectrum<R>& transmitted) {
-  const InterfaceSplits<R> s(ior, wo, std::abs(wo.z));
+                                        const Spectrum<R>& transmitted, const Split& split) {
   SpecularTerms<R> t;
-  t.eta = s.eta;
-  t.reflect_weight = s.reflected * reflected;
-  t.transmit_weight = s.transmitted * transmitted;
   for (int j = 0; j < kWavelengths; ++j) {
+    t.eta[j] = relative_eta(ior[j], wo);
+    const FresnelSplit<R> s = split(j, t.eta[j]);
+    t.reflect_weight[j] = s.reflected * reflected[j];
+    t.transmit_weight[j] = s.transmitted * transmitted[j];
     const R sum = t.reflect_weight[j] + t.transmit_weight[j];
     if (!(sum > 0)) continue;
     t.reflect_probability[j] = t.reflect_weight[j] / sum;

@@ -48,7 +48,9 @@ struct PhongGlass {
   }
 
   SpecularTerms<R> terms(Vec3<R> wo) const {
-    return interface_terms(ior, wo, reflected, transmitted);
+    const R c = limited(std::abs(wo.z), R(0), R(1));
+    return interface_terms(ior, wo, reflected, transmitted,
+                           [c](int, R eta) { return fresnel_split(c, eta); });
   }
 
   Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode) const {
