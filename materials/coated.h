@@ -42,7 +42,7 @@ inline constexpr int kCoatedMatte = 5, kSpread = 32;
 inline constexpr double kHeld[] = {0, 0.2, 0.5, 0.8, 1}, kStretchedHeld[] = {0, 0.3, 0.7, 1};
 /// Of stretched facets; the axis of the width is that of an interface.
 inline constexpr int kStretchedCoatAlpha = 22, kStretchedCoatIndex = 23,
-                     kStretchedCoatDirection = 28, kStretchedCoatDegree = 12;
+                     kStretchedCoatDirection = 28, kStretchedCoatDegree = 16;
 inline constexpr double kLeastCoatIndex = 0.1, kMostCoatIndex = 0.9844914;  ///< of 1.0002 and 32
 
 template <class R>

@@ -26,8 +26,8 @@
 /// so that a lossless base under a lossless coat is 1 in every direction: round facets, `glossy`
 /// and both mattes under any such coat within 1e-4 for indices from 1.005 to 4 and roughness from
 /// 0.05, beyond these 4e-4, and towards index 1 or 8 1e-3; stretched facets in it or under it 1e-4
-/// up to anisotropy 0.9 for indices from 1.02 to 4 and roughness from 0.2, in a coat of index 1.005
-/// or 8 2e-4, of 1.001 1e-3, and above 8 1e-2.
+/// up to anisotropy 0.9 for indices from 1.02 to 4 and roughness from 0.2, 5e-4 at anisotropy 1, in
+/// a coat of index 1.005 or 8 2e-4, of 1.001 1e-3, and above 8 1e-2.
 /// All other lobes get
 ///   base: min(T, T')
 /// which never gains, as it is below T. All of these are symmetric. A specular coat over a Lambert
@@ -56,9 +56,9 @@
 /// so that lossless glass is 1 from both sides: smooth 1e-5 (`dielectric`, `beckmann_dielectric`,
 /// `film_dielectric`, `phong_glass`, `refraction`), round facets of roughness from 0.02 and
 /// stretched ones from 0.1, of anisotropy up to 0.9, 1e-3 for indices of both between 1.01 and 4,
-/// as without a coat; but seen from inside one random setting of anisotropy 0.9 in 15000 is off by
-/// up to 2.5e-3, and of anisotropy 1 all are within 1e-2. Below a polished coat under another of
-/// index below 1.03, 3e-3. Of `glossy_refraction`, of an index of at least 1, what changes sides
+/// as without a coat; but seen from inside one random setting of anisotropy 0.9 in 50000 is off by
+/// up to 1.5e-3, and one of anisotropy 1 in 270 by up to 3e-3. Below a polished coat under another
+/// of index below 1.03, 3e-3. Of `glossy_refraction`, of an index of at least 1, what changes sides
 /// gets g(wo) g(wi) of the directions outside, and what is sent back is the rest of T as a mirror:
 /// 1e-4. Rough `phong_glass`, rough glass under a film, and other indices, get min(T, T') as if
 /// both directions were outside, and lose up to a tenth about the critical angle.

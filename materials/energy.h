@@ -50,8 +50,8 @@ inline constexpr float kGgxLeastMean = 0.1f, kBeckmannLeastMean = 0.003f;
 /// `kink` of both.
 inline constexpr float kGgxKink = 0.6f, kBeckmannKink = 0;
 /// `bent` of both.
-inline constexpr BentGrid kGgxBent[] = {{12, 14, 26, 12}, {16, 28, 36, 14}};
-inline constexpr BentGrid kBeckmannBent[] = {{17, 14, 26, 12}, {24, 28, 36, 14}};
+inline constexpr BentGrid kGgxBent[] = {{16, 14, 26, 18}, {16, 28, 36, 20}};
+inline constexpr BentGrid kBeckmannBent[] = {{17, 14, 26, 18}, {24, 28, 36, 20}};
 
 /// How directions and widths are laid out over [0, 1] along the axes of the tables.
 namespace axes {
@@ -328,32 +328,33 @@ struct Shape {
   }
 };
 
-/// Polynomials over the disc of shapes, even in v and 0 at its centre: products of Chebyshev's, of
-/// the degrees i in u and 2 j in v, i + 2 j <= `degree`.
+/// Polynomials over the disc of shapes, even in v and 0 at its centre: r^m cos(m angle), r and
+/// angle polar coordinates of the disc, times Chebyshev's T_k(2 r^2 - 1), where m + 3 k <=
+/// `degree`: what facets do changes fastest with the angle, next to the rim.
 template <class R>
 struct ShapeBasis {
-  static constexpr int kMostDegree = 14;
-  static constexpr int terms(int degree) { return (degree / 2 + 1) * (degree / 2 + 1) - 1; }
+  static constexpr int kMostDegree = 20;
+  static constexpr int terms(int degree) {
+    int count = -1;  // all but 1
+    for (int k = 0; 3 * k <= degree; ++k) count += degree - 3 * k + 1;
+    return count;
+  }
   static constexpr int kMost = terms(kMostDegree);
 
   R value[kMost];
   int count;  ///< of terms
 
   ShapeBasis(const Shape<R>& shape, int degree) : count(terms(degree)) {
-    R along[kMostDegree + 1];
-    along[0] = 1, along[1] = shape.u;
-    for (int i = 2; i <= degree; ++i) along[i] = 2 * shape.u * along[i - 1] - along[i - 2];
-    // Of even degree: Chebyshev's of half of it at 2 v^2 - 1.
-    const R w = 2 * shape.v * shape.v - 1;
-    R across = 1, before = w;
+    const R r2 = shape.u * shape.u + shape.v * shape.v, x = 2 * r2 - 1;
+    R around[kMostDegree + 1] = {1, shape.u};
+    for (int m = 2; m <= degree; ++m) around[m] = 2 * shape.u * around[m - 1] - r2 * around[m - 2];
+    R outwards = 1, before = x;
     int at = 0;
-    for (int j = 0; 2 * j <= degree; ++j) {
-      for (int i = j == 0; i + 2 * j <= degree; ++i) {
-        constexpr int centre[] = {1, 0, -1, 0};
-        value[at++] = along[i] * across - R(centre[i % 4] * (j % 2 ? -1 : 1));
-      }
-      const R next = 2 * w * across - before;
-      before = across, across = next;
+    for (int k = 0; 3 * k <= degree; ++k) {
+      if (k > 0) value[at++] = outwards - R(k % 2 ? -1 : 1);
+      for (int m = 1; m <= degree - 3 * k; ++m) value[at++] = around[m] * outwards;
+      const R next = 2 * x * outwards - before;
+      before = outwards, outwards = next;
     }
   }
 
@@ -395,13 +396,35 @@ struct InterfaceLoss {
   /// l(w) in [0, 1].
   R at(Vec3<R> w) const {
     const R z = std::abs(w.z), s = std::sqrt(w.x * w.x + w.y * w.y);
-    // Less is all but noise in float, and Beckmann's falls as a normal distribution above alpha.
-    const R least = R(1e-4) * ax * ay;
-    if (ax == ay) return limited(round(ax, z, s), least);
+    if (ax == ay) return limited(round(ax, z, s));
     const StretchedInterface<R> f = stretched({w.x, w.y, z});
-    const R like = f.like();
-    return limited(round(like, z, s) + f.scale() * difference(f, like, s), least);
+    return at(f, [&](R like, const Stencil<R>& d) { return difference(f, like, d); });
   }
+
+  /// The same of stretched facets `f`: `difference(like, d)` is that of l from what it is of round
+  /// ones of width `like`, over its scale, at `d` on the axis of directions.
+  template <class Difference>
+  R at(const StretchedInterface<R>& f, const Difference& difference) const {
+    const R s = std::sqrt(f.x * f.x + f.y * f.y), like = f.like();
+    const R place = axes::bent_direction(f.z, s, like, eta, R(tables->kink));
+    return limited(round(like, f.z, s) +
+                   f.scale() * difference(like, Stencil<R>::at(place, grid().direction)));
+  }
+  /// As the table has it.
+  R difference(const StretchedInterface<R>& f, R like, const Stencil<R>& d) const {
+    using namespace axes;
+    using Basis = ShapeBasis<R>;
+    const Basis basis(f.shape(widening(eta, like)), grid().degree);
+    const auto a = Stencil<R>::at(bent_width(like), grid().width);
+    const auto n = Stencil<R>::at(bent_index(eta), grid().index);
+    const int n2 = basis.count, n1 = n2 * coefficients(grid().direction),
+              n0 = n1 * coefficients(grid().index);
+    R sums[Basis::kMost] = {};
+    add_terms(sums, n2, tables->stretched[falls()], R(1), a, n0, n, n1, d, n2);
+    return basis.sum(sums);
+  }
+  /// Its axes.
+  const BentGrid& grid() const { return tables->bent[falls()]; }
 
   /// m in (0, 1). Its table rings next to alpha = 0 for indices below 1/4: see `least_mean`.
   R mean() const {
@@ -433,26 +456,12 @@ struct InterfaceLoss {
   }
 
  private:
-  static R limited(R l, R least) { return l > least ? std::min(l, R(1)) : least; }
-  int falls() const { return eta < 1; }
-
-  /// Of l from that of round facets of width `like`, over its scale.
-  R difference(const StretchedInterface<R>& f, R like, R s) const {
-    using namespace axes;
-    using Basis = ShapeBasis<R>;
-    const BentGrid& grid = tables->bent[falls()];
-    const int terms = Basis::terms(grid.degree);
-    const Basis basis(f.shape(widening(eta, like)), grid.degree);
-    const auto a = Stencil<R>::at(bent_width(like), grid.width);
-    const auto n = Stencil<R>::at(bent_index(eta), grid.index);
-    const auto d =
-        Stencil<R>::at(bent_direction(f.z, s, like, eta, R(tables->kink)), grid.direction);
-    const int n2 = terms, n1 = n2 * coefficients(grid.direction),
-              n0 = n1 * coefficients(grid.index);
-    R sums[Basis::kMost] = {};
-    add_terms(sums, terms, tables->stretched[falls()], R(1), a, n0, n, n1, d, n2);
-    return basis.sum(sums);
+  /// Less is all but noise in float, and Beckmann's falls as a normal distribution above alpha.
+  R limited(R l) const {
+    const R least = R(1e-4) * ax * ay;
+    return l > least ? std::min(l, R(1)) : least;
   }
+  int falls() const { return eta < 1; }
 
   R mean_ratio(R alpha) const {
     using namespace axes;

@@ -37,7 +37,7 @@ extern const FilmTables kGgxFilm;
 namespace axes {
 inline constexpr int kFilmTerms = 6, kFilmAlpha = 18, kFilmIndex = 16, kFilmDirection[] = {36, 64};
 inline constexpr int kFilmMeanAlpha = 12, kFilmMeanAspect = 6;
-inline constexpr BentGrid kFilmBent[] = {{8, 10, 16, 6}, {10, 12, 24, 8}};
+inline constexpr BentGrid kFilmBent[] = {{8, 10, 16, 8}, {10, 12, 24, 10}};
 
 /// Of indices from 1.0002 to 4, or their inverses.
 template <class R>

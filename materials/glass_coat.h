@@ -44,7 +44,7 @@ inline constexpr int kGlassAlpha = 28, kGlassIndex = 20, kGlassDirection[] = {44
 struct BentGlassGrid {
   int width, index, direction, coat, degree;
 };
-inline constexpr BentGlassGrid kBentGlass[] = {{9, 9, 15, 6, 10}, {15, 18, 25, 8, 10}};
+inline constexpr BentGlassGrid kBentGlass[] = {{9, 9, 15, 6, 12}, {15, 18, 25, 8, 12}};
 /// The ends of the axes of both indices, 1.0002 and 4, and the least width, nearly a mirror's.
 inline constexpr double kLeastGlassIndex = 0.1, kMostGlassIndex = 0.8801117;
 inline constexpr double kLeastGlassAlpha = 0.0464;

@@ -18,7 +18,7 @@ std::vector<float> write_lobes(const TableFiles& to, const std::string& name, in
   using namespace axes;
   std::vector<Values> table(std::size_t(count) * kCoatIndex);
   parallel(int(table.size()), [&](int k) {
-    table[k] = value(k / kCoatIndex, index_at(double(k % kCoatIndex) / (kCoatIndex - 1)));
+    table[k] = value(k / kCoatIndex, index_of(double(k % kCoatIndex) / (kCoatIndex - 1)));
   });
   const Grid grid({count, kCoatIndex, kCoatDirection}, [&](const double* x) {
     const auto at = [](double u, int nodes) { return int(std::lround(u * (nodes - 1))); };

@@ -20,38 +20,38 @@ std::vector<float> write(const TableFiles& to, const std::string& name, const Gr
   return table;
 }
 
-/// Mean over the hemisphere in units of mean_unit of what the tables say, so that what is given
-/// back sums to what they say is lost; z^2 + alpha^2 spread evenly over its logarithm, or crowded
-/// about z = `ridge`. Of twelve azimuths, or one where all are alike.
-template <class Loss>
-double mean_loss(const Loss& loss, double alpha2, double ridge = 0) {
-  const double log = std::log1p(1 / alpha2), at = std::log1p(ridge * ridge / alpha2) / log;
-  return quarter_mean(loss.ax / loss.ay, loss.ax > loss.ay ? 12 : 1, [&](double x, double y) {
-    const auto f = [&](double u) {
-      const double z2 = std::min(1.0, alpha2 * std::expm1(u * log)), s = std::sqrt(1 - z2);
-      return loss.at({s * x, s * y, std::sqrt(z2)}) * (z2 / alpha2 + 1);
-    };
-    double sum = 0;
-    const auto panels = [&sum](const auto& g, int n) {
-      for (int k = 0; k < n; ++k) sum += integrate<8>(g, double(k) / n, (k + 1.0) / n);
-    };
-    if (ridge == 0)
-      panels(f, 24);
-    else
-      for (const double reach : {-at, 1 - at})
-        panels([&](double t) { return 3 * std::abs(reach) * t * t * f(at + reach * t * t * t); },
-               16);
-    return sum;
-  });
+/// What `loss` says along one azimuth, of |cosine| and sine.
+auto along_azimuth(const FacetLoss<double>& loss, double x, double y) {
+  return [=](double z, double s) { return loss.at({s * x, s * y, z}); };
+}
+/// Of stretched facets of an interface the difference from round ones is a spline there, whose
+/// coefficients are found once.
+auto along_azimuth(const InterfaceLoss<double>& loss, double x, double y) {
+  std::vector<double> spline;
+  if (loss.ax != loss.ay) {
+    const auto seen = loss.stretched({x, y, 0});
+    const int count = coefficients(loss.grid().direction);
+    for (int k = 0; k < count; ++k) {
+      Stencil<double> one{std::min(k, count - 4)};
+      one.weight[k - one.first] = 1;
+      spline.push_back(loss.difference(seen, seen.like(), one));
+    }
+  }
+  return [=](double z, double s) {
+    const Vec3d w{s * x, s * y, z};
+    if (spline.empty()) return loss.at(w);
+    return loss.at(loss.stretched(w),
+                   [&](double, const Stencil<double>& d) { return interpolate(spline.data(), d); });
+  };
 }
 
-/// Where the losses of an interface have their ridge: the cosine of the critical angle, or 0.
-double ridge_of(double eta) { return std::sqrt(std::max(0.0, (1 - eta) * (1 + eta))); }
-
-/// The relative index of a place on its axis; `rising`: above 1.
-double index_at(double place, bool rising) {
-  const double x = std::clamp(place * place * place * place, 1e-7, 1 - 1e-4);
-  return rising ? (1 + x) / (1 - x) : (1 - x) / (1 + x);
+/// Mean over the hemisphere in units of mean_unit of what the tables say, so that what is given
+/// back sums to what they say is lost. Of twelve azimuths, or one where all are alike.
+template <class Loss>
+double mean_loss(const Loss& loss, double ridge = 0) {
+  return quarter_mean(loss.ax / loss.ay, loss.ax > loss.ay ? 12 : 1, [&](double x, double y) {
+    return height_mean(along_azimuth(loss, x, y), loss.ax * loss.ay, ridge, 32);
+  });
 }
 
 /// How a mean's width is laid out: the inverse of axes::log_alpha.
@@ -77,7 +77,7 @@ RoundInterface write_round_interface(const TableFiles& to, const std::string& na
       to, name,
       Grid({kInterfaceAlpha[!rising], kIndex[!rising], kInterfaceDirection[!rising]},
            [&](const double* x) {
-             const double a = std::max(x[0] * x[0] * x[0], 1e-5), eta = index_at(x[1], rising);
+             const double a = std::max(x[0] * x[0] * x[0], 1e-5), eta = index_of(x[1], rising);
              const double c = cosine(std::min(x[2], 1 - kLeast), [&](double z, double s) {
                return interface_direction(z, s, a, eta);
              });
@@ -88,8 +88,8 @@ RoundInterface write_round_interface(const TableFiles& to, const std::string& na
   const InterfaceTables tables = round.tables();
   round.mean =
       write(to, name + "Mean", Grid({kInterfaceMean, kIndex[!rising]}, [&](const double* x) {
-              const double a = from_log(x[0]), eta = index_at(x[1], rising);
-              return mean_loss(InterfaceLoss<double>{&tables, a, a, eta}, a * a, ridge_of(eta));
+              const double a = from_log(x[0]), eta = index_of(x[1], rising);
+              return mean_loss(InterfaceLoss<double>{&tables, a, a, eta}, ridge_of(eta));
             }));
   return round;
 }
@@ -104,7 +104,7 @@ std::array<double, 2> bent_widths(double root, double place) {
 double bent_index_at(double place, bool rising) {
   using namespace axes;
   place = std::pow(place, 1 / kBentIndexPower[!rising]);
-  return index_at(kLeastBentIndex + (kMostBentIndex - kLeastBentIndex) * place, rising);
+  return index_of(kLeastBentIndex + (kMostBentIndex - kLeastBentIndex) * place, rising);
 }
 
 /// What stretched facets lose other than the round ones of the tables, over its scale.
@@ -117,10 +117,7 @@ std::vector<float> stretched_difference(bool rising, const InterfaceTables& roun
   const Grid values({widths, indices, directions, count}, [&](const double* x) {
     const double like = std::pow(kLeastBentRoot + (1 - kLeastBentRoot) * x[0], 2);
     const double eta = bent_index_at(x[1], rising);
-    auto seen = shapes.facets(int(std::lround(x[3] * (count - 1))), widening(eta, like));
-    const double along = std::hypot(seen.wide * seen.x, seen.narrow * seen.y);
-    const double root = like / (along + like * (1 - along));  // the inverse of like()
-    seen.wide *= root, seen.narrow *= root;
+    auto seen = shapes.facets_like(int(std::lround(x[3] * (count - 1))), like, widening(eta, like));
     const double c = cosine(std::min(x[2], 1 - kLeast), [&](double z, double s) {
       return bent_direction(z, s, like, eta, double(round.kink));
     });
@@ -154,10 +151,10 @@ void write_stretched_interface(const TableFiles& to, const std::string& name, bo
           const double root = kLeastBentFourthRoot + (1 - kLeastBentFourthRoot) * x[0];
           const double alpha = std::pow(root, 4);
           const auto [wide, narrow] = bent_widths(alpha, x[1]);
-          const double eta = bent_index_at(x[2], rising), a2 = alpha * alpha;
+          const double eta = bent_index_at(x[2], rising);
           const InterfaceLoss<double> like{&tables, alpha, alpha, eta},
               loss{&tables, wide, narrow, eta};
-          return mean_loss(loss, a2, ridge_of(eta)) * mean_unit(a2) / like.mean();
+          return mean_loss(loss, ridge_of(eta)) * mean_unit(alpha * alpha) / like.mean();
         }));
 }
 
@@ -193,12 +190,12 @@ void write_facets(const TableFiles& to, const std::string& name) {
   const FacetTables tables{round.data(), nullptr, stretched.data(), nullptr};
   write(to, name + "Mean", Grid({kMean}, [&](const double* x) {
           const double a = from_log(x[0]);
-          return mean_loss(FacetLoss<double>{&tables, a, a}, a * a);
+          return mean_loss(FacetLoss<double>{&tables, a, a});
         }));
   write(to, name + "StretchedMean", Grid({kStretchedMean, kMeanAspect}, [&](const double* x) {
           const double alpha = from_log(x[0]), wide = alpha * std::pow(10, x[1] / 2 + 1e-9);
           const double narrow = alpha * alpha / wide;
-          return mean_loss(FacetLoss<double>{&tables, wide, narrow}, alpha * alpha);
+          return mean_loss(FacetLoss<double>{&tables, wide, narrow});
         }));
 }
 
@@ -210,8 +207,8 @@ int main(int argc, char** argv) {
   return tables::make_tables(argc, argv, [](const tables::TableFiles& to) {
     tables::write_facets<Ggx>(to, "kGgx");
     tables::write_facets<Beckmann>(to, "kBeckmann");
-    tables::write_interface<Ggx>(to, "kGgx", {kGgxLeastMean, kGgxKink, kGgxBent, {32, 20}});
+    tables::write_interface<Ggx>(to, "kGgx", {kGgxLeastMean, kGgxKink, kGgxBent, {32, 22}});
     tables::write_interface<Beckmann>(to, "kBeckmann",
-                                      {kBeckmannLeastMean, kBeckmannKink, kBeckmannBent, {20, 16}});
+                                      {kBeckmannLeastMean, kBeckmannKink, kBeckmannBent, {20, 18}});
   });
 }

@@ -26,8 +26,7 @@ double alpha_at(double place) { return std::max(place * place * place, 1e-5); }
 /// The relative index of a place on its axis; `rising`: above 1.
 double index_at(double place, bool rising) {
   using namespace axes;
-  const double x = std::pow(kLeastBentIndex + (kMostBentIndex - kLeastBentIndex) * place, 4);
-  return rising ? (1 + x) / (1 - x) : (1 - x) / (1 + x);
+  return index_of(kLeastBentIndex + (kMostBentIndex - kLeastBentIndex) * place, rising);
 }
 
 /// D_k along `w`, and what it is measured in, the last.
@@ -104,11 +103,8 @@ Grid stretched_quotients(bool rising, const FilmTables& round) {
       FilmedLoss<double>::quotients(round, {nullptr, like, like, eta}, {s, 0, z}, same);
       std::vector<double> values[kFilmTerms];
       for (int shape = 0; shape < shapes.count(); ++shape) {
-        auto seen = shapes.facets(shape);
-        const double along = std::hypot(seen.wide * seen.x, seen.narrow * seen.y);
-        const double root = like / (along + like * (1 - along));  // the inverse of like()
-        const Changes of =
-            quotients({{seen.wide * root, seen.narrow * root}}, eta, {s * seen.x, s * seen.y, z});
+        const auto seen = shapes.facets_like(shape, like);
+        const Changes of = quotients({{seen.wide, seen.narrow}}, eta, {s * seen.x, s * seen.y, z});
         for (int k = 0; k < kFilmTerms; ++k) values[k].push_back(of.of[k] - same[k]);
       }
       for (int t = 0; t < terms; ++t)
@@ -122,9 +118,6 @@ Grid stretched_quotients(bool rising, const FilmTables& round) {
 
 /// Of what the tables say, the mean over the hemisphere of D_k and of what it is measured in.
 Changes mean_quotients(const FilmTables& tables, const Ggx<double>& facets, double eta) {
-  const double a2 = facets.ax * facets.ay, log = std::log1p(1 / a2);
-  const double critical2 = std::max(0.0, (1 - eta) * (1 + eta));
-  const double at = std::log1p(critical2 / a2) / log;  // points crowd about it
   const InterfaceLoss<double> loss{&facets.interface(), facets.ax, facets.ay, eta};
   const FacetLoss<double> mirrors{&facets.tables(), facets.ax, facets.ay};
   const auto changes = [&](Vec3d w) {
@@ -135,21 +128,13 @@ Changes mean_quotients(const FilmTables& tables, const Ggx<double>& facets, doub
     return to;
   };
   const double aspect = facets.ax / facets.ay;
-  Numbers<axes::kFilmTerms + 1> sum;
-  for (const double reach : {-at, 1 - at}) {
-    if (reach == 0) continue;
-    constexpr int panels = 6;
-    for (int n = 0; n < 8 * panels; ++n) {
-      const double t = (n / 8 + gauss<8>().x[n % 8]) / panels, u = at + reach * t * t * t;
-      const double z2 = std::min(1.0, a2 * std::expm1(u * log)), z = std::sqrt(z2),
-                   s = std::sqrt(1 - z2);
-      const auto mean = quarter_mean(aspect, aspect > 1 ? 12 : 1, [&](double x, double y) {
-        return changes({s * x, s * y, z});
-      });
-      sum += mean * ((z2 + a2) * gauss<8>().w[n % 8] * std::abs(reach) * t * t);
-    }
-  }
-  return quotients(sum);
+  return quotients(height_mean(
+      [&](double z, double s) {
+        return quarter_mean(aspect, aspect > 1 ? 12 : 1, [&](double x, double y) {
+          return changes({s * x, s * y, z});
+        });
+      },
+      facets.ax * facets.ay, ridge_of(eta), 6));
 }
 
 Grid means(bool rising, const FilmTables& tables) {

@@ -19,9 +19,8 @@ namespace tables {
 namespace {
 
 double index_at(double place) {
-  using namespace axes;
-  const double x = kLeastGlassIndex + (kMostGlassIndex - kLeastGlassIndex) * place;
-  return (1 + x * x * x * x) / (1 - x * x * x * x);
+  return index_of(axes::kLeastGlassIndex +
+                  (axes::kMostGlassIndex - axes::kLeastGlassIndex) * place);
 }
 double alpha_at(double place) {
   return std::pow(axes::kLeastGlassAlpha + (1 - axes::kLeastGlassAlpha) * place, 3);
@@ -85,26 +84,26 @@ template <bool Inside, int Count, class Facets>
 Parts<Count> further(const Facets& facets, double glass) {
   const InterfaceLoss<double> outside{&facets.interface(), facets.ax, facets.ay, glass},
       inside{&facets.interface(), facets.ax, facets.ay, 1 / glass};
-  const double a2 = facets.ax * facets.ay, log = std::log1p(1 / a2);
   const double mean_outside = outside.mean(), mean_inside = inside.mean();
   const double across = Inside ? transmitted_share(mean_inside, mean_outside, 1 / glass)
                                : transmitted_share(mean_outside, mean_inside, glass);
   const bool round = facets.ax == facets.ay;
-  Parts<Count> sum;
-  double all = 0;
-  const int panels = round ? 24 : 12, turns = round ? 1 : 6;
-  for (int n = 0; n < 8 * panels; ++n) {  // z^2 + alpha^2 spread evenly over its logarithm
-    const double u = (n / 8 + gauss<8>().x[n % 8]) / panels;
-    const double z2 = std::min(1.0, a2 * std::expm1(u * log)), z = std::sqrt(z2),
-                 s = std::sqrt(1 - z2);
-    const double l = quarter_mean(facets.ax / facets.ay, turns, [&](double x, double y) {
-      return outside.at({s * x, s * y, z});
-    });
-    const double share = l * (z2 + a2) * gauss<8>().w[n % 8];
-    sum += lacks<Inside, Count>(z) * share;
-    all += share;
-  }
-  return sum * ((Inside ? across : 1 - across) / all);
+  const auto sum = height_mean(
+      [&](double z, double s) {
+        const double l =
+            quarter_mean(facets.ax / facets.ay, round ? 1 : 6, [&](double x, double y) {
+              return outside.at({s * x, s * y, z});
+            });
+        Numbers<Count + kRest + 1> to;
+        const auto lack = lacks<Inside, Count>(z) * l;
+        std::copy(lack.of.begin(), lack.of.end(), to.of.begin());
+        to.of.back() = l;
+        return to;
+      },
+      facets.ax * facets.ay, 0, round ? 24 : 12);
+  Parts<Count> parts;
+  std::copy_n(sum.of.begin(), Count + kRest, parts.of.begin());
+  return parts * ((Inside ? across : 1 - across) / sum.of.back());
 }
 
 /// The integrals for light along `w`, z > 0.
@@ -147,15 +146,13 @@ Bent bent_side(const GlassTables& round) {
     const double glass = index_at(double(i % grid.index) / (grid.index - 1));
     std::vector<std::vector<double>> values(grid.direction * columns, std::vector<double>(count));
     for (int shape = 0; shape < count; ++shape) {
-      auto seen = shapes.facets(shape, axes::widening(Inside ? 1 / glass : glass, like));
-      const double x = seen.x, y = seen.y, along = std::hypot(seen.wide * x, seen.narrow * y);
-      const double root = like / (along + like * (1 - along));  // the inverse of like()
-      seen.wide *= root, seen.narrow *= root;
+      auto seen = shapes.facets_like(shape, like, axes::widening(Inside ? 1 / glass : glass, like));
+      const double x = seen.x, y = seen.y;
       const Distribution<double> facets{{seen.wide, seen.narrow}};
       const auto further_bounces = further<Inside, coats>(facets, glass);
       for (int d = 0; d < grid.direction; ++d) {
         const double z = std::max(cosine_at(Inside, double(d) / (grid.direction - 1), like, glass),
-                                  kLeast * root);
+                                  kLeast * seen.root());
         const double s = std::sqrt(1 - z * z);
         seen.x = x * s, seen.y = y * s, seen.z = z;
         const auto sent =

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/quadrature.h"
 #include "materials/energy.h"
 #include "materials/facets.h"
 #include "materials/tables/grid.h"
@@ -29,6 +30,37 @@ double cosine(double place, const Axis& axis) {
     (axis(std::sin(angle), std::cos(angle)) < place ? lo : hi) = (lo + hi) / 2;
   }
   return std::sin(lo * kPi<double> / 2);
+}
+
+/// The relative index of which axes::index is `x`; `rising`: above 1.
+inline double index_of(double x, bool rising = true) {
+  const double part = std::clamp(x * x * x * x, 1e-7, 1 - 1e-4);
+  return rising ? (1 + part) / (1 - part) : (1 - part) / (1 + part);
+}
+
+/// Where the losses of an interface have their ridge: the cosine of the critical angle, or 0.
+inline double ridge_of(double eta) { return std::sqrt(std::max(0.0, (1 - eta) * (1 + eta))); }
+
+/// Mean over the hemisphere of `f(z, s)`, a number or some, in units of mean_unit; s^2 = 1 - z^2.
+/// By rules of eight points over the logarithm of z^2 + alpha^2: `panels` of them, or as many on
+/// either side of z = `ridge`, where they are dense.
+template <class F>
+auto height_mean(const F& f, double alpha2, double ridge, int panels) {
+  const double log = std::log1p(1 / alpha2), at = std::log1p(ridge * ridge / alpha2) / log;
+  decltype(f(0.0, 0.0)) sum{};
+  const auto add = [&](double u, double weight) {
+    const double z2 = std::min(1.0, alpha2 * std::expm1(u * log));
+    sum += f(std::sqrt(z2), std::sqrt(1 - z2)) * (weight * (z2 / alpha2 + 1));
+  };
+  for (int n = 0; n < 8 * panels; ++n) {
+    const double t = (n / 8 + gauss<8>().x[n % 8]) / panels, weight = gauss<8>().w[n % 8] / panels;
+    if (ridge == 0)
+      add(t, weight);
+    else
+      for (const double reach : {-at, 1 - at})
+        add(at + reach * t * t * t, weight * 3 * std::abs(reach) * t * t);
+  }
+  return sum;
 }
 
 /// Mean over a quarter of a turn of `f(x, y)`, a number or some, (x, y) of unit length and x along

@@ -16,19 +16,17 @@
 namespace mms::materials::tables {
 
 /// Shapes that stretched facets are computed at, on rings of the disc, and what makes polynomials
-/// of the values there: least squares, which count less the more facets are stretched.
+/// of the values there: least squares.
 class ShapeFit {
  public:
   explicit ShapeFit(int degree) : terms_(ShapeBasis<double>::terms(degree)) {
-    const int rings = degree / 2 + 1;
-    std::vector<double> weights;
+    const int rings = degree / 3 + 1;
     for (int ring = 1; ring <= rings; ++ring) {
-      const int n = 2 * ring + 3;
+      const int n = 5 + degree * ring / rings;
       const double radius = std::sin(kPi<double> / 2 * ring / rings);
       for (int i = 0; i < n; ++i) {
         const double angle = kPi<double> * i / (n - 1);
         shapes_.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-        weights.push_back(radius > 0.85 ? 0.1 : 1);  // anisotropy 0.9 is at 0.83
       }
     }
     // The normal equations, with a column for each shape. A little is added to their diagonal:
@@ -38,8 +36,8 @@ class ShapeFit {
     for (int s = 0; s < count(); ++s) {
       const ShapeBasis<double> basis(shapes_[s], degree);
       for (int i = 0; i < terms_; ++i) {
-        a[i][terms_ + s] = weights[s] * basis.value[i];
-        for (int j = 0; j < terms_; ++j) a[i][j] += weights[s] * basis.value[i] * basis.value[j];
+        a[i][terms_ + s] = basis.value[i];
+        for (int j = 0; j < terms_; ++j) a[i][j] += basis.value[i] * basis.value[j];
       }
     }
     for (int i = 0; i < terms_; ++i) a[i][i] += 1e-5;
@@ -59,6 +57,16 @@ class ShapeFit {
                  widened = Shape<double>::widened(std::hypot(u, v), widening);
     const Vec3d w = normalize(Vec3d{std::sin(turn) / widened, std::cos(turn), 0});
     return {wide, 1 / wide, w.x, w.y, 0};
+  }
+
+  /// The same, but along the tangent as wide as round ones of the width `like`.
+  StretchedInterface<double> facets_like(int i, double like,
+                                         double widening = axes::kWidening) const {
+    StretchedInterface<double> seen = facets(i, widening);
+    const double along = std::hypot(seen.wide * seen.x, seen.narrow * seen.y);
+    const double root = like / (along + like * (1 - along));  // the inverse of like()
+    seen.wide *= root, seen.narrow *= root;
+    return seen;
   }
 
   /// The coefficient of a term, of values at all shapes.

@@ -159,11 +159,7 @@ std::vector<Spread> lobes(int count, const Make& make) {
   return all;
 }
 
-/// The inverses of axes::index, axes::coat_alpha and axes::gloss.
-inline double index_at(double place) {
-  const double x = std::clamp(place * place * place * place, 1e-7, 1 - 1e-4);
-  return (1 + x) / (1 - x);
-}
+/// The inverses of axes::coat_alpha and axes::gloss.
 inline double alpha_at(double place) { return std::max(place * place * place * place, 1e-6); }
 inline double gloss_at(double place) { return std::expm1(place * std::log1p(axes::kLargestGloss)); }
 

@@ -9,6 +9,7 @@
 #include "materials/fresnel.h"
 #include "materials/tables/coats.h"
 #include "materials/tables/grid.h"
+#include "materials/tables/losses.h"
 #include "materials/tables/shapes.h"
 
 namespace mms::materials::tables {
@@ -165,8 +166,7 @@ class Lobe {
 /// The inverse of axes::stretched_coat_index.
 double index_at(double place) {
   using namespace axes;
-  const double x = std::pow(kLeastCoatIndex + (kMostCoatIndex - kLeastCoatIndex) * place, 4);
-  return (1 + x) / (1 - x);
+  return index_of(kLeastCoatIndex + (kMostCoatIndex - kLeastCoatIndex) * place);
 }
 
 /// Coats that a lobe lies below, by how broad they are.

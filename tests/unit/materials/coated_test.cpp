@@ -140,7 +140,7 @@ TEST_CASE("a matte under a stretched coat keeps its energy") {
   const Row rows[] = {{"microfacet", [](double r, double a) { return microfacet(1, r, a); }},
                       {"beckmann", [](double r, double a) { return scale(beckmann(1, r, a), 1); }}};
   for (const Row& row : rows)
-    for (double anisotropy : {0.3, -0.6, 0.9}) {
+    for (double anisotropy : {0.3, -0.6, 0.9, 1.0}) {
       if (kSanitized && anisotropy > 0.8) continue;  // too few panels
       Range range;
       for (int k = 1; k <= (kSanitized ? 4 : 40); ++k) {
@@ -148,7 +148,7 @@ TEST_CASE("a matte under a stretched coat keeps its energy") {
         const double ior = 1.02 * std::pow(4 / 1.02, place(0.5497));
         const Material top = row.make(0.2 + 0.8 * place(0.6710), anisotropy);
         range.add(albedo(coat(top, matte(1), 0, 0, ior), kAngles[k % std::size(kAngles)],
-                         kPi<double> / 2 * place(0.4503), 14));
+                         kPi<double> / 2 * place(0.4503), anisotropy > 0.9 ? 20 : 14));
       }
       CHECK_MESSAGE(range.least > 1 - 1e-4, row.name, " ", anisotropy);
       CHECK_MESSAGE(range.most < 1 + 1e-4, row.name, " ", anisotropy);
@@ -474,12 +474,10 @@ TEST_CASE("stretched facets under a coat keep their energy") {
   struct Row {
     std::string name;
     Material (*make)(double roughness, double anisotropy);
-    double bound;  ///< beyond anisotropy 0.9
   };
-  const Row rows[] = {
-      {"microfacet", [](double r, double a) { return microfacet(1, r, a); }, 1e-3},
-      {"beckmann", [](double r, double a) { return beckmann(1, r, a); }, 1.5e-3},
-      {"conductor", [](double r, double a) { return conductor(1, 1e25, r, a); }, 1e-3}};
+  const Row rows[] = {{"microfacet", [](double r, double a) { return microfacet(1, r, a); }},
+                      {"beckmann", [](double r, double a) { return beckmann(1, r, a); }},
+                      {"conductor", [](double r, double a) { return conductor(1, 1e25, r, a); }}};
   for (const Row& row : rows)
     for (double anisotropy : {0.3, -0.6, 0.9, 1.0}) {
       if (kSanitized && anisotropy > 0.8) continue;  // too few panels
@@ -495,7 +493,7 @@ TEST_CASE("stretched facets under a coat keep their energy") {
               range.add(
                   coated_albedo(row.make(roughness, anisotropy), ior, degrees, azimuth, panels));
             }
-      const double bound = most ? row.bound : 1e-4;
+      const double bound = most ? 5e-4 : 1e-4;
       CHECK_MESSAGE(range.least > 1 - bound, row.name, " ", anisotropy);
       CHECK_MESSAGE(range.most < 1 + bound, row.name, " ", anisotropy);
       MESSAGE(row.name, " of anisotropy ", anisotropy, " under a coat: albedo from ", range.least,

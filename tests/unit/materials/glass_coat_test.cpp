@@ -133,7 +133,7 @@ TEST_CASE("smooth glass under a polished coat is lossless, from both sides") {
 
 template <class Facets>
 void check_stretched(const std::string& name, Lobe lobe) {
-  for (const double anisotropy : {0.3, -0.5, 0.9, -0.9}) {
+  for (const double anisotropy : {0.3, -0.5, 0.9, -0.9, 1.0}) {
     Range range;
     for (int k = 1; k <= (kSanitized ? 4 : 24); ++k) {
       const double glass = between(1.02, 3.9, place(k, 0.8192)),

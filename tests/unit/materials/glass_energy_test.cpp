@@ -141,9 +141,9 @@ TEST_CASE(
   check_between(kBeckmann, 0.1, 1, 0, 1e-3);
 }
 
-TEST_CASE("so is that of stretched facets, to anisotropy 0.9; of 1 within 1e-2") {
+TEST_CASE("so is that of stretched facets, to anisotropy 0.9; of 1 within 3e-3") {
   for (const double anisotropy : {0.6, -0.9, 1.0}) {
-    const double bound = anisotropy == 1 ? 1e-2 : 1e-3;
+    const double bound = anisotropy == 1 ? 3e-3 : 1e-3;
     check_between(kGgx, 0.1, 1, anisotropy, bound);
     check_between(kBeckmann, 0.1, 1, anisotropy, bound);
   }
