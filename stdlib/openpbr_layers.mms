@@ -91,8 +91,8 @@ material openpbr_metal(
     );
 
 /// OpenPBR's transmission where it is thin-walled: a sheet that light goes straight through. Clear it
-/// is a `slab`; rough or under a film it reflects as the one interface that reflects as much along
-/// the normal, and blurs what is behind it as both its faces bend light.
+/// is a `slab`; rough it reflects as both its faces do together, and blurs what is behind it as both
+/// bend light. Under a film it reflects as the one interface that reflects as much along the normal.
 /// >>> openpbr_sheet(1.5, 0.0, 0.0, 1.0, 0.8, 0.0, 500nm, 1.4)
 /// >>> openpbr_sheet(1.5, 0.3, 0.0, 1.0, 0.8, 0.5, 500nm, 1.4)
 material openpbr_sheet(
@@ -106,7 +106,8 @@ material openpbr_sheet(
     blur    = max(abs(ior - 1.0) * roughness * roughness, 1e-6);
     through = glossy_through(transmitted, 1.0 / (blur * blur), 1.0 / (blur * blur));
     gloss   = openpbr_gloss(reflected, roughness, anisotropy);
-    bare    = fresnel_mix(through, gloss, index);
+    // A film of a millimetre has no fringes: both its faces reflect as those of a sheet.
+    bare    = film_mix(through, gloss, 1.0, max(ior, 1.0 / ior), 1mm, 550nm);
     filmed  = film_mix(through, gloss, index, film_ior, thickness, $wavelength);
     return select
         slab(ior, 1.0, absorption_from(transmitted, 1.0)),

@@ -300,6 +300,25 @@ TEST_CASE("openpbr: clear matter is as rough as it is said to be, and tinted") {
     }
 }
 
+TEST_CASE("openpbr: a sheet that is all but clear reflects what a clear one does") {
+  const double ior = 1.7;
+  const OpenPbr p({{"geometry_thin_walled", "true"},
+                   {"transmission_weight", "1"},
+                   {"transmission_color", "spectrum(0.0)"},
+                   {"specular_roughness", "0.01"},
+                   {"specular_ior", std::to_string(ior)}});
+  REQUIRE_MESSAGE(p.context, p.log);
+  for (const double cosine : {1.0, 0.7, 0.5, 0.3}) {
+    // Of each polarisation 2 R / (1 + R), by Fresnel's equations as they stand.
+    const double inside = std::sqrt(1 - (1 - cosine * cosine) / (ior * ior));
+    const double s = (cosine - ior * inside) / (cosine + ior * inside),
+                 t = (ior * cosine - inside) / (ior * cosine + inside);
+    const double both = s * s / (1 + s * s) + t * t / (1 + t * t);
+    const Weights w = weights(p, cosine, kSanitized ? 1024 : 16384);
+    CHECK(std::abs(w.mean - both) < 0.01 * both + 5 * w.error);
+  }
+}
+
 TEST_CASE("openpbr: every level of optimisation gives the same bits") {
   const Settings settings{{"base_color", "rgb(0.7, 0.3, 0.2)"},
                           {"base_metalness", "0.4"},
