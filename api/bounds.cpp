@@ -59,6 +59,8 @@ class Weights {
         return most(node, 0) * at(node.children[0]);
       case Lobe::Add:
         return at(node.children[0]) + at(node.children[1]);
+      case Lobe::Turn:
+        return at(node.children[0]);
       default:
         return tint(node);
     }

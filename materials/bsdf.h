@@ -38,6 +38,7 @@
 #include "materials/layout.h"
 #include "materials/lobe.h"
 #include "materials/microfacet.h"
+#include "materials/turn.h"
 #include "materials/under_coats.h"
 
 namespace mms::materials {
@@ -68,6 +69,7 @@ class Bsdf {
   struct Choice {
     PerNode<Spectrum<R>> probability;     ///< of lobes only
     bool any = false;                     ///< the hero has something to choose from
+    Turns<R> turns;                       ///< of the tangents of lobes
     PerNode<CoatAbove<R>> coats;          ///< where there is more than one node
     PerNode<OverGlass<R>> glass;          ///< of coats that are over glass
     SolvedPerNode<UnderCoats<R>> under;   ///< of lobes that have several coats above or are of one

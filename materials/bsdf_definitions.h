@@ -56,7 +56,8 @@ inline bool knows_coats(const M& model, const CoatsOnGlass<R>& coats) {
     return false;
 }
 
-/// Remembers what the model of node `i` is along `wo`, if it is more than its numbers.
+/// Remembers what the model of node `i` is along `wo`, in its frame, if it is more than its
+/// numbers.
 template <class R, class M>
 inline void see(const M& model, Vec3<R> wo, int i, typename Bsdf<R>::Choice& choice) {
   if constexpr (requires { model.seen(wo); })
@@ -71,6 +72,7 @@ inline const auto& seen(const M& model, Vec3<R> wo, int i, const typename Bsdf<R
 template <class R, class M>
 inline Lobes<R> evaluate(const M& model, Vec3<R> wo, Vec3<R> wi, Mode mode, int i,
                          const typename Bsdf<R>::Choice& choice) {
+  wo = choice.turns.seen(i, wo), wi = choice.turns.seen(i, wi);
   if constexpr (requires { model.seen(wo); })
     return model.evaluate(wo, wi, mode, seen<R>(model, wo, i, choice));
   else
@@ -79,10 +81,14 @@ inline Lobes<R> evaluate(const M& model, Vec3<R> wo, Vec3<R> wi, Mode mode, int 
 template <class R, class M>
 inline bool sample(const M& model, Vec3<R> wo, R u_lobe, R u1, R u2, int i,
                    const typename Bsdf<R>::Choice& choice, Vec3<R>& wi) {
+  wo = choice.turns.seen(i, wo);
+  bool drawn;
   if constexpr (requires { model.seen(wo); })
-    return model.sample(wo, u_lobe, u1, u2, seen<R>(model, wo, i, choice), wi);
+    drawn = model.sample(wo, u_lobe, u1, u2, seen<R>(model, wo, i, choice), wi);
   else
-    return model.sample(wo, u_lobe, u1, u2, wi);
+    drawn = model.sample(wo, u_lobe, u1, u2, wi);
+  wi = choice.turns.unseen(i, wi);
+  return drawn;
 }
 
 template <class M>
@@ -168,6 +174,7 @@ Result Bsdf<R>::with_model(int i, Result none, Visit visit) const {
     case Lobe::Scale:
     case Lobe::Add:
     case Lobe::Layer:
+    case Lobe::Turn:
       break;
   }
   return none;
@@ -189,13 +196,15 @@ bool Bsdf<R>::specular_only() const {
 template <class R>
 void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
   choice.any = false;
+  choice.turns.reset();
   if (node_count() == 0 || in_surface(wo)) return;
   auto& probability = choice.probability.of;
   // Of a node's model; what that has seen along `wo` is remembered.
   const auto estimate = [&](int i) {
+    const Vec3<R> w = choice.turns.seen(i, wo);
     return with_model(i, Spectrum<R>(), [&](const auto& model) {
-      if (!detail::is_specular(model)) detail::see<R>(model, wo, i, choice);
-      return model.estimate(wo);
+      if (!detail::is_specular(model)) detail::see<R>(model, w, i, choice);
+      return model.estimate(w);
     });
   };
   // Below this the inverse would overflow: black.
@@ -206,6 +215,7 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
     return;
   }
   Spectrum<R> sum;
+  choice.turns.find(*layout_, params_);
   find_coats(*layout_, params_, wo, choice.coats);
   if (layout_->transmits()) find_coated_glass(wo, choice);
   weigh_for_choice(*layout_, params_, wo, &choice.coats, choice.probability);
@@ -222,6 +232,7 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
     const CoatAbove<R>& coat = choice.coats.of[i];
     const bool part = coat.part_of >= 0;
     if (!part && !coat.ior) continue;
+    const Vec3<R> w = choice.turns.seen(i, wo);
     with_model(i, 0, [&](const auto& model) {
       if constexpr (detail::kLambert<R, std::decay_t<decltype(model)>>) {
         if (coat.ior) choice.coats.of[coat.base].mean = mean_through_coats(i, choice);
@@ -231,16 +242,16 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
         choice.under.solve(i, lobe.round(), coats_above(choice.coats, coat, lobe.broad()));
         choice.solved.set(i);
       };
-      if constexpr (requires { model.coated(wo); }) {
+      if constexpr (requires { model.coated(w); }) {
         if (detail::is_specular(model)) return 0;
-        const CoatedLobe<R> lobe = model.coated(wo);
+        const CoatedLobe<R> lobe = model.coated(w);
         solve(lobe);
         choice.scaling.of[i] =
             coated_scaling(choice.coats, coat, choice.solution(i), lobe, coat.through_o);
-      } else if constexpr (requires { model.coated(wo, 0); }) {
+      } else if constexpr (requires { model.coated(w, 0); }) {
         if (detail::is_specular(model) || !coat.passed_once) return 0;
-        solve(model.coated(wo, 0));
-        choice.scaling.of[i] = bent_scaling(choice.coats, coat, choice.solution(i), model, wo);
+        solve(model.coated(w, 0));
+        choice.scaling.of[i] = bent_scaling(choice.coats, coat, choice.solution(i), model, w);
       }
       return 0;
     });
@@ -294,11 +305,12 @@ Sent<R> Bsdf<R>::sent_back(int base, Vec3<R> w, const Choice& choice) const {
   };
   for_each_below(*layout_, params_, choice.coats, base, [&](int i, const Spectrum<R>& weight) {
     if (!choice.coats.of[i].passed_once) return;
+    const Vec3<R> seen = choice.turns.seen(i, w);
     with_model(i, 0, [&](const auto& model) {
-      if constexpr (requires { model.sent_back(w, coats); })
-        add(model.sent_back(w, coats), weight);
+      if constexpr (requires { model.sent_back(seen, coats); })
+        add(model.sent_back(seen, coats), weight);
       else if constexpr (detail::CanBeSpecular<std::decay_t<decltype(model)>>)
-        add(SentBack<R>::smooth(model.terms(w), w, coats), weight);
+        add(SentBack<R>::smooth(model.terms(seen), seen, coats), weight);
       return 0;
     });
   });
@@ -308,8 +320,9 @@ Sent<R> Bsdf<R>::sent_back(int base, Vec3<R> w, const Choice& choice) const {
 template <class R>
 Spectrum<R> Bsdf<R>::mean_spread(int base, bool inside, const Choice& choice) const {
   if (choice.glass.of[base].o.spread.v == Spectrum<R>().v) return {};
-  // Over x = z^2 and, in four parts, the azimuth; points crowd about a critical angle, the same for
-  // each wavelength, whichever is the hero.
+  // Over x = z^2 and, in parts of an eighth of pi, the azimuth, to pi / 2, where all is alike in
+  // the four quarters; points crowd about a critical angle, the same for each wavelength, whichever
+  // is the hero.
   R at = 0;
   bool stretched = false;
   for_each_below(*layout_, params_, choice.coats, base, [&](int i, const Spectrum<R>&) {
@@ -336,11 +349,11 @@ Spectrum<R> Bsdf<R>::mean_spread(int base, bool inside, const Choice& choice) co
       const R t = R(gauss<kPoints>().x[k]), x = at + reach * t * t * t;
       const R z = std::sqrt(x), s = std::sqrt(1 - x);
       const R weight = R(gauss<kPoints>().w[k]) * 3 * t * t * std::abs(reach);
-      const int turns = stretched ? 4 : 1;
-      for (int turn = 0; turn < turns; ++turn) {
-        const R phi = (R(turn) + R(0.5)) / R(turns) * (kPi<R> / 2);
+      const int azimuths = !stretched ? 1 : choice.turns.any() ? 8 : 4;
+      for (int a = 0; a < azimuths; ++a) {
+        const R phi = (R(a) + R(0.5)) * (kPi<R> / 8);
         const Vec3<R> w{s * std::cos(phi), s * std::sin(phi), inside ? -z : z};
-        mean += sent_back(base, w, choice).spread * (weight / R(turns));
+        mean += sent_back(base, w, choice).spread * (weight / R(azimuths));
       }
     }
   }
@@ -397,16 +410,18 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
         const auto coated = [&](const Spectrum<R>& counted, const Spectrum<R>& g_i) {
           return coated_weight(choice.coats, above, counted, w.other, choice.scaling.of[i], g_i);
         };
-        if constexpr (requires { model.coated(wo); }) {
+        if constexpr (requires { model.coated(wi); }) {
           if (above.part_of >= 0 || above.ior) {
+            const CoatedLobe<R> lobe = model.coated(choice.turns.seen(i, wi));
             total.f += l.f * coated(w.bare, coated_scaling(choice.coats, above, choice.solution(i),
-                                                           model.coated(wi), w.through_i));
+                                                           lobe, w.through_i));
             return 0;
           }
-        } else if constexpr (requires { model.coated(wo, 0); }) {
+        } else if constexpr (requires { model.coated(wi, 0); }) {
           if (above.passed_once && !same_side(wo, wi)) {
-            total.f += l.f * coated(w.crossing, bent_scaling(choice.coats, above,
-                                                             choice.solution(i), model, wi));
+            total.f +=
+                l.f * coated(w.crossing, bent_scaling(choice.coats, above, choice.solution(i),
+                                                      model, choice.turns.seen(i, wi)));
             return 0;
           }
         }

@@ -103,8 +103,8 @@ inline Films<R> films(const R* p) {
   return films;
 }
 
-/// The weights of the children of a `mix`, `scale` or `add`, whose factors are numbers; whether the
-/// node is one.
+/// The weights of the children of a `mix`, `scale`, `add` or `turn`, whose factors are numbers;
+/// whether the node is one.
 template <class R, class Weight>
 inline bool weigh_by_numbers(const Layout::Node& node, const R* p, int i, Weight* w) {
   const int a = node.children[0], b = node.children[1];
@@ -121,6 +121,9 @@ inline bool weigh_by_numbers(const Layout::Node& node, const R* p, int i, Weight
       return true;
     case Lobe::Add:
       w[a] = w[b] = w[i];
+      return true;
+    case Lobe::Turn:
+      w[a] = w[i];
       return true;
     default:
       return false;

@@ -3,7 +3,8 @@
 
 /// \file
 /// How combiners weigh their children: from the root down, a factor for each node. Factors of
-/// `mix`, `scale` and `add` are numbers; those of `fresnel_mix` depend on both directions.
+/// `mix`, `scale` and `add` are numbers, and `turn` has none (materials/turn.h); those of
+/// `fresnel_mix` depend on both directions.
 ///
 /// `fresnel_mix(base, coat, ior)` and `coat(top, base, thickness, absorption, ior)`: of light along
 /// wo the coat reflects E and lets T = 1 - E through (materials/coat.h), both from outside the
@@ -12,8 +13,8 @@
 /// |wo.z|^2) / n^2, c' alike for wi; n is `ior` times that of all coats right above.
 ///
 /// Where the index is above 1, and the coat made of `glossy`, `glossy_product`, `glossy_back`,
-/// `microfacet`, `beckmann`, metals and mirrors, one of them or what `mix`, `scale` and `add` make
-/// of several, each of its lobes gets
+/// `microfacet`, `beckmann`, metals and mirrors, one of them or what `mix`, `scale`, `add` and
+/// `turn` make of several, each of its lobes gets
 ///   coat: h(wo) h(wi)           (materials/coated.h), for its own E; for a delta E itself
 /// so that a white coat reflects E exactly. Of other lobes it is
 ///   coat: min(F, F')            and s is 0: E = F

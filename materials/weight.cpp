@@ -32,6 +32,8 @@ Spectrumf weight_of(const Layout& layout, const float* params, int k) {
       return between(Spectrumf(0.0f), part(0), first());
     case Lobe::Mix:
       return between(part(0), part(1), first());
+    case Lobe::Turn:
+      return part(0);
     default:
       break;
   }

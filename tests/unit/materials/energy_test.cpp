@@ -212,12 +212,13 @@ TEST_CASE("rough matte under a coat keeps its energy") {
 namespace {
 
 /// Lobes and combiners whose f is the same to the bit with its directions exchanged, also in float.
-constexpr Lobe kToTheBit[] = {
-    Lobe::Matte,      Lobe::Translucent, Lobe::Glossy,        Lobe::GlossyProduct,
-    Lobe::GlossyBack, Lobe::Phong,       Lobe::GlossyThrough, Lobe::OrenNayar,
-    Lobe::MaxPhong,   Lobe::Spot,        Lobe::Ward,          Lobe::AshikhminShirley,
-    Lobe::Sheen,      Lobe::Mirror,      Lobe::Mix,           Lobe::Scale,
-    Lobe::Add,        Lobe::Layer,       Lobe::FresnelMix,    Lobe::Coat};
+constexpr Lobe kToTheBit[] = {Lobe::Matte,         Lobe::Translucent, Lobe::Glossy,
+                              Lobe::GlossyProduct, Lobe::GlossyBack,  Lobe::Phong,
+                              Lobe::GlossyThrough, Lobe::OrenNayar,   Lobe::MaxPhong,
+                              Lobe::Spot,          Lobe::Ward,        Lobe::AshikhminShirley,
+                              Lobe::Sheen,         Lobe::Mirror,      Lobe::Mix,
+                              Lobe::Scale,         Lobe::Add,         Lobe::Layer,
+                              Lobe::FresnelMix,    Lobe::Coat,        Lobe::Turn};
 
 bool refracts_at_facets(const Material& m) {
   return std::any_of(m.tree.nodes.begin(), m.tree.nodes.end(), [](const vm::LayoutNode& n) {

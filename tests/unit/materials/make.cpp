@@ -176,6 +176,8 @@ Material layer(Material top, Material base, double weight) {
   return node(Lobe::Layer, {top, base}, {}, {weight});
 }
 
+Material turn(Material a, double angle) { return node(Lobe::Turn, {a}, {}, {angle}); }
+
 Material add(Material a, Material b) { return node(Lobe::Add, {a, b}, {}); }
 
 Vec3d direction(double degrees, double phi) {
