@@ -78,8 +78,7 @@ std::vector<Case> smooth_cases() {
       coat(mix(scale(beckmann(1, 0.4, -0.6), ramp(1, 0.7)), glossy(1, 40), 0.4),
            conductor(ramp(0.2, 1.3), ramp(3.4, 2.1), 0.5, 0.7), 0.1, ramp(0.1, 2), ramp(1.6, 1.4)));
   put("turned facets under a turned coat",
-      turn(coat(microfacet(1, 0.4, 0.7), turn(beckmann(ramp(0.9, 0.5), 0.5, -0.8), 0.7), 0.1,
-                ramp(0.1, 2), ramp(1.6, 1.4)),
+      turn(coat(microfacet(1, 0.4, 0.7), turn(beckmann(ramp(0.9, 0.5), 0.5, -0.8), 0.7), 0, 0, 1.5),
            -0.4));
   put("three coats",
       coat(glossy(1, 100),
