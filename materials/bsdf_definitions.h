@@ -320,9 +320,9 @@ Sent<R> Bsdf<R>::sent_back(int base, Vec3<R> w, const Choice& choice) const {
 template <class R>
 Spectrum<R> Bsdf<R>::mean_spread(int base, bool inside, const Choice& choice) const {
   if (choice.glass.of[base].o.spread.v == Spectrum<R>().v) return {};
-  // Over x = z^2 and, in parts of an eighth of pi, the azimuth, to pi / 2, where all is alike in
-  // the four quarters; points crowd about a critical angle, the same for each wavelength, whichever
-  // is the hero.
+  // Over x = z^2 and, by steps of pi / 8, azimuths: one where all are alike, a quarter of the turn
+  // of stretched facets, and half of it where axes are turned. Points crowd about a critical angle,
+  // the same for each wavelength, whichever is the hero.
   R at = 0;
   bool stretched = false;
   for_each_below(*layout_, params_, choice.coats, base, [&](int i, const Spectrum<R>&) {
