@@ -71,6 +71,9 @@ inline R hemisphere_mean(const F& f, int parts = 2) {
   return R(sum);
 }
 
+template <class R>
+class FacesAlong;
+
 /// What a coat reflects by: an interface, or one under a film. More fringes than one fade, to the
 /// mean of films of all thicknesses: few points see what E and T are (materials/under_coats.h), and
 /// films of that thickness, which is not even to a wave, look so.
@@ -81,20 +84,55 @@ struct Face {
 
   Face(R index, const Film<R>& above = {}) : eta(index), film(above) {}
 
-  FresnelSplit<R> split(R z) const {
-    if (!film.there()) return fresnel_split(z, eta);
+  R contrast() const {
     const R more = std::max(film.fringes - 1, R(0));
-    return film.faded_split(z, eta, more > 0 ? std::exp(-more * more) : R(1));
+    return more > 0 ? std::exp(-more * more) : R(1);
   }
-  R reflected(R z) const { return split(z).reflected; }
-
-  /// The mean over the hemisphere; of films by four points.
-  R mean() const {
-    if (!film.there()) return std::max(fresnel_dielectric_diffuse(eta), R(0));
-    return R(integrate<4>([this](double x) { return double(reflected(R(std::sqrt(x)))); }, 0, 1));
-  }
+  R reflected(R z) const { return FacesAlong<R>(z).split(*this).reflected; }
   /// Rules that see each fringe of a film that is left.
   int parts() const { return 2 + int(std::min(film.fringes, R(4))); }
+};
+
+/// Faces along one direction. Films of the same indices, as at most wavelengths, differ there by
+/// their phases alone.
+template <class R>
+class FacesAlong {
+ public:
+  FacesAlong() = default;
+  explicit FacesAlong(R z) : z_(z) {}
+
+  FresnelSplit<R> split(const Face<R>& face) {
+    if (!face.film.there()) return fresnel_split(z_, face.eta);
+    if (!film_.is_of(face.film.ior, face.eta)) film_ = {{z_}, face.film.ior, face.eta};
+    const auto e = film_.split(face.film.phases, face.contrast());
+    return {e.reflected[0], e.transmitted[0]};
+  }
+
+ private:
+  R z_ = 1;
+  FilmAlong<R> film_;
+};
+
+/// Means of F over the hemisphere; of films by four points.
+template <class R>
+class FaceMeans {
+ public:
+  R operator()(const Face<R>& face) {
+    if (!face.film.there()) return std::max(fresnel_dielectric_diffuse(face.eta), R(0));
+    if (!films_.is_of(face.film.ior, face.eta)) {
+      std::array<R, kPoints> z;
+      for (int k = 0; k < kPoints; ++k) z[k] = R(std::sqrt(gauss<kPoints>().x[k]));
+      films_ = {z, face.film.ior, face.eta};
+    }
+    const auto e = films_.split(face.film.phases, face.contrast());
+    double sum = 0;
+    for (int k = 0; k < kPoints; ++k) sum += gauss<kPoints>().w[k] * double(e.reflected[k]);
+    return R(sum);
+  }
+
+ private:
+  static constexpr int kPoints = 4;
+  FilmAlong<R, kPoints> films_;
 };
 
 namespace held {
@@ -114,6 +152,14 @@ inline R mean(R eta) {
 }
 }  // namespace held
 
+/// What F and L of faces are along a direction of |cosine| z.
+template <class R>
+struct CoatDirection {
+  FacesAlong<R> steep, held;
+
+  explicit CoatDirection(R z) : steep(z), held(held::cosine(z)) {}
+};
+
 /// E and T of one face: level + steep F + held L, and the rest.
 template <class R>
 struct CoatShape {
@@ -129,15 +175,19 @@ struct CoatShape {
     return level.reflected == b.level.reflected && steep == b.steep && held == b.held;
   }
 
-  FresnelSplit<R> split(R z, const Face<R>& face) const {
+  FresnelSplit<R> split(CoatDirection<R>& along, const Face<R>& face) const {
     FresnelSplit<R> e = level;
     const auto add = [&e](R share, const FresnelSplit<R>& f) {
       e.reflected += share * f.reflected;
       e.transmitted += share * f.transmitted;
     };
-    if (steep != 0) add(steep, face.split(z));
-    if (held != 0) add(held, face.split(held::cosine(z)));
+    if (steep != 0) add(steep, along.steep.split(face));
+    if (held != 0) add(held, along.held.split(face));
     return e;
+  }
+  FresnelSplit<R> split(R z, const Face<R>& face) const {
+    CoatDirection<R> along(z);
+    return split(along, face);
   }
 
   /// The mean of E over the hemisphere, `mean` being that of F, which no film is part of.
@@ -161,7 +211,7 @@ struct CoatShape {
       to.held = held + (steep - to.steep);
       return to;
     }
-    const FresnelSplit<R> normal = face.split(R(1));
+    const FresnelSplit<R> normal = FacesAlong<R>(1).split(face);
     const R rises = held_most - normal.reflected;
     const R kept = rises > 0 ? limited((most - normal.reflected) / rises, R(0), R(1)) : R(0);
     to.steep = 0;
@@ -183,7 +233,7 @@ template <class R>
 struct CoatNumbers {
   Spectrum<R> eta{R(1)};  ///< index below over index above, or its inverse
   Films<R> films;
-  Spectrum<R> mean{};   ///< of F over the hemisphere
+  Spectrum<R> mean{};   ///< of F over the hemisphere; where a film is, if it matters
   Spectrum<R> least{};  ///< |cosine| at which light meets the coat, below others
   CoatShape<R> shape[kWavelengths];
 
@@ -191,6 +241,7 @@ struct CoatNumbers {
   CoatNumbers(const R* ior, const Films<R>& above, const Spectrum<R>& held, const Spectrum<R>& even,
               const Spectrum<R>& least_cosine)
       : films(above), least(least_cosine) {
+    FaceMeans<R> means;
     for (int j = 0; j < kWavelengths; ++j) {
       eta[j] = relative_eta(ior[j], Vec3<R>{0, 0, 1});
       // Under a film an index of 1 is a coat like others; on one below there is no film.
@@ -202,7 +253,7 @@ struct CoatNumbers {
         falls_.set(j);
       }
       const bool repeated = j > 0 && eta[j] == eta[j - 1] && films[j] == films[j - 1];
-      mean[j] = repeated ? mean[j - 1] : face(j).mean();
+      mean[j] = repeated ? mean[j - 1] : films[j].there() && even[j] == 0 ? R(0) : means(face(j));
       const bool same =
           repeated && held[j] == held[j - 1] && even[j] == even[j - 1] && least[j] == least[j - 1];
       shape[j] = same ? shape[j - 1] : of(j, {held[j], even[j]});
@@ -244,6 +295,9 @@ struct CoatNumbers {
     to.find_repeated();
     return to;
   }
+  FresnelSplit<R> split(int j, CoatDirection<R>& along) const {
+    return shape[j].split(along, face(j));
+  }
   FresnelSplit<R> split(int j, R z) const { return shape[j].split(z, face(j)); }
   /// \pre no film
   R mean_reflected(int j) const { return shape[j].mean(mean[j], eta[j]); }
@@ -279,10 +333,10 @@ struct CoatAlong {
 
   CoatAlong() = default;
   CoatAlong(const CoatNumbers<R>& coat, R z) {
-    z = limited(z, R(0), R(1));
+    CoatDirection<R> along(limited(z, R(0), R(1)));
     FresnelSplit<R> e{};
     for (int j = 0; j < kWavelengths; ++j) {
-      if (!coat.repeated(j)) e = coat.split(j, z);
+      if (!coat.repeated(j)) e = coat.split(j, along);
       reflected[j] = e.reflected;
       through[j] = e.transmitted;
     }

@@ -221,9 +221,9 @@ inline Spectrum<R> delta_weight(const Spectrum<R>& other, const PerNode<CoatAbov
   if (above.part_of < 0) return other;
   const CoatNumbers<R>& coat = coats.of[above.part_of].numbers;
   Spectrum<R> f = other;
+  CoatDirection<R> along(std::min(std::abs(cosine), R(1)));
   for (int j = 0; j < kWavelengths; ++j)
-    if (coat.eta[j] > 1)
-      f[j] *= coat.of(j, {}).split(std::min(std::abs(cosine), R(1)), coat.face(j)).reflected;
+    if (coat.eta[j] > 1) f[j] *= coat.of(j, {}).split(along, coat.face(j)).reflected;
   return f;
 }
 
@@ -281,6 +281,7 @@ inline Spectrum<R> coated_scaling(const PerNode<CoatAbove<R>>& coats, const Coat
   if (under) along = under->along(lobe.z);
   Spectrum<R> g{R(1)};
   const Broadness<R> broad = part ? lobe.broad() : Broadness<R>{};
+  CoatDirection<R> direction(lobe.z);
   bool known = false, solved = false;
   for (int j = 0; j < kWavelengths; ++j) {
     const bool was_known = known, was_solved = solved;
@@ -294,7 +295,7 @@ inline Spectrum<R> coated_scaling(const PerNode<CoatAbove<R>>& coats, const Coat
       continue;
     }
     const CoatShape<R> shape = part ? coat.of(j, broad) : coat.shape[j];
-    const R e = part ? shape.split(lobe.z, coat.face(j)).reflected : R(1);
+    const R e = part ? shape.split(direction, coat.face(j)).reflected : R(1);
     const R t = together ? through[j] : R(1);
     const R squared = solved ? squared_as_solved(coats, above, *under, along, lobe, j, t, e)
                       : part ? lobe.as_coat(eta, e)

@@ -49,7 +49,8 @@ struct BareFace {
   struct Law {
     R of(Loss loss) const { return loss; }
   };
-  Law law(int, R) const { return {}; }
+  struct Shared {};  ///< by laws of the same indices
+  Law law(int, R, Shared&) const { return {}; }
 };
 
 /// Facets of an interface along one direction, for each wavelength: what is found once for all that
@@ -139,6 +140,7 @@ struct RoughInterface {
     Seen s;
     s.shadow = facets.shadow(wo);
     typename Face::Loss here, mean_here, mean_there;
+    typename Face::Shared shared;
     for (int j = 0; j < kWavelengths; ++j) {
       const R eta = rough_eta(j, wo);
       if (!same_index(j)) {
@@ -146,7 +148,7 @@ struct RoughInterface {
         mean_here = Face::mean_loss(facets, eta);
         mean_there = Face::mean_loss(facets, 1 / eta);
       }
-      s.law[j] = face.law(j, wo.z > 0 ? eta : 1 / eta);
+      s.law[j] = face.law(j, wo.z > 0 ? eta : 1 / eta, shared);
       s.lost[j] = s.law[j].of(here);
       s.mean_here[j] = s.law[j].of(mean_here);
       s.mean_there[j] = s.law[j].of(mean_there);

@@ -66,8 +66,9 @@ struct FilmFace {
     return Loss::mean(kGgxFilm, interface_loss(facets, eta), mirrors(facets));
   }
   using Law = FilmLaw<R>;
+  using Shared = FilmPoints<R>;
   /// Of the index inside.
-  Law law(int j, R n) const { return {film(j), n}; }
+  Law law(int j, R n, Shared& points) const { return {film(j), n, points}; }
 
  private:
   Film<R> film(int j) const { return {p[j], p[kWavelengths], p[kWavelengths + 1 + j]}; }

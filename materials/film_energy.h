@@ -110,6 +110,40 @@ struct FilmedLoss {
   }
 };
 
+/// Films between two indices at Chebyshev's points of the cosine at a facet.
+template <class R>
+struct FilmPoints {
+  static constexpr int kCount = 8;
+  using Values = std::array<R, kCount>;
+  FilmAlong<R, kCount> films;
+  Values bare{};  ///< what goes through where there is no film
+
+  FilmPoints() = default;
+  FilmPoints(R film, R far) : films(rule().cosines, film, far) {
+    for (int i = 0; i < kCount; ++i) bare[i] = fresnel_split(rule().cosines[i], far).transmitted;
+  }
+
+  /// The points, where sums over two of his polynomials' products vanish, and what a function's
+  /// values there are multiplied with for its part of each polynomial.
+  struct Rule {
+    Values cosines, parts[axes::kFilmTerms];
+
+    Rule() {
+      for (int i = 0; i < kCount; ++i) {
+        const double c = (1 + std::cos(kPi<double> * (i + 0.5) / kCount)) / 2;
+        cosines[i] = R(c);
+        const auto terms = film_terms(cosines[i]);
+        for (int k = 0; k < axes::kFilmTerms; ++k)
+          parts[k][i] = terms[k] * R(k == 0 ? 1 : 2) / R(kCount);
+      }
+    }
+  };
+  static const Rule& rule() {
+    static const Rule rule;
+    return rule;
+  }
+};
+
 /// What a film does to losses.
 template <class R>
 struct FilmLaw {
@@ -117,40 +151,33 @@ struct FilmLaw {
 
   FilmLaw() = default;
   /// Between outside and the index `n`. Fringes beyond one and a half fade: what many facets lose
-  /// together does not follow them.
-  FilmLaw(const Film<R>& outside, R n) {
+  /// together does not follow them. `points` are kept for laws of the same indices.
+  FilmLaw(const Film<R>& outside, R n, FilmPoints<R>& points) {
+    using Points = FilmPoints<R>;
     const R near = std::min(n, R(1)), far = std::max(n, R(1)), eta = far / near;
     const Film<R> film = outside.in(near);
-    const R more = std::max(film.fringes - R(1.5), R(0)), contrast = std::exp(-more * more);
-    for (int i = 0; i < kPoints; ++i) {
-      const R c = R(points()[i]);
-      const R through = film.ior < 1 ? film.split(c, R(1), eta).transmitted
-                                     : film.faded_split(c, eta, contrast).transmitted;
-      const R bare = fresnel_split(c, eta).transmitted;
-      const R change = bare > 0 ? limited(through / bare - 1, R(-1), R(1e3)) : R(0);
-      const auto terms = film_terms(c);
-      for (int k = 0; k < axes::kFilmTerms; ++k)
-        q[k] += change * terms[k] * R(k == 0 ? 1 : 2) / R(kPoints);
+    if (!points.films.is_of(film.ior, eta)) points = {film.ior, eta};
+    const auto& [cosines, parts] = Points::rule();
+    typename Points::Values through;
+    if (film.ior < 1) {
+      for (int i = 0; i < Points::kCount; ++i)
+        through[i] = film.split(cosines[i], R(1), eta).transmitted;
+    } else {
+      const R more = std::max(film.fringes - R(1.5), R(0));
+      through = points.films.split(film.phases, std::exp(-more * more)).transmitted;
     }
+    for (int i = 0; i < Points::kCount; ++i) {
+      const R change = points.bare[i] > 0 ? through[i] / points.bare[i] - 1 : R(0);
+      through[i] = limited(change, R(-1), R(1e3));
+    }
+    for (int k = 0; k < axes::kFilmTerms; ++k)
+      for (int i = 0; i < Points::kCount; ++i) q[k] += parts[k][i] * through[i];
   }
 
   R of(const FilmedLoss<R>& loss) const {
     R l = loss.bare;
     for (int k = 0; k < axes::kFilmTerms; ++k) l -= q[k] * loss.terms[k];
     return limited(l, loss.bare / 100, R(1));
-  }
-
- private:
-  static constexpr int kPoints = 8;
-  /// Chebyshev's points, where sums over two of his polynomials' products vanish.
-  static const std::array<double, kPoints>& points() {
-    static const auto at = [] {
-      std::array<double, kPoints> points{};
-      for (int i = 0; i < kPoints; ++i)
-        points[i] = (1 + std::cos(kPi<double> * (i + 0.5) / kPoints)) / 2;
-      return points;
-    }();
-    return at;
   }
 };
 

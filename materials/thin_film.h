@@ -6,6 +6,7 @@
 /// both polarisations (Born and Wolf, 1.6). Exact in index, angle and wavelength.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 
@@ -13,6 +14,19 @@
 #include "materials/lobe.h"
 
 namespace mms::materials {
+
+namespace detail {
+/// (n cos)^2 in a medium of index `n`, as in refraction_g2 where the sine is near sin.
+template <class R, class T>
+inline T normal_square(R c, R near, T n) {
+  return c > R(0.7) ? n * n - near * near * (1 - c) * (1 + c)
+                    : (n - near) * (n + near) + near * near * (c * c);
+}
+template <class R>
+inline R root_above(R x) {
+  return x > 0 ? std::sqrt(x) : R(0);
+}
+}  // namespace detail
 
 /// Lengths of one wavelength.
 template <class R>
@@ -51,8 +65,9 @@ struct Film {
   /// \pre a real `far` does not reflect totally
   template <class Far>
   FresnelSplit<R> split(R c, R near, Far far) const {
-    const R g1 = near * c, film2 = normal_square(c, near, ior), g2 = std::sqrt(std::abs(film2));
-    const Far g3 = root(normal_square(c, near, far));
+    const R g1 = near * c, film2 = detail::normal_square(c, near, ior),
+            g2 = std::sqrt(std::abs(film2));
+    const Far g3 = root(detail::normal_square(c, near, far));
     const bool wave = film2 > 0;
     const R b = phases * g2, cosine = wave ? std::cos(b) : R(1);
     const R sine = g2 > 0 ? (wave ? std::sin(b) : std::tanh(b)) / g2 : phases;  // over g
@@ -71,30 +86,6 @@ struct Film {
     return {limited(sum.reflected, R(0), R(1)), limited(sum.transmitted, R(0), R(1))};
   }
 
-  /// The same between outside and a real `far`, but of fringes as `contrast` in [0, 1] has them: of
-  /// 0 it is the mean over films of all thicknesses, so over b. Of each polarisation,
-  ///   (A cos^2 b + B sin^2 b) / (C cos^2 b + D sin^2 b)
-  /// has the mean (A / sqrt C + B / sqrt D) / (sqrt C + sqrt D).
-  /// \pre neither the film's index nor `far` is below 1
-  FresnelSplit<R> faded_split(R c, R far, R contrast) const {
-    if (!(c > 0)) return {R(1), R(0)};
-    const R g2 = std::sqrt(normal_square(c, R(1), ior)), g3 = root(normal_square(c, R(1), far));
-    const R cosine2 = (1 + std::cos(2 * phases * g2)) / 2, sine2 = 1 - cosine2;
-    FresnelSplit<R> sum{R(0), R(0)};
-    const auto add = [&](R y2, R y3) {
-      const R odd = c * y3 / y2, root_c = c + y3, root_d = odd + y2;
-      const R a = (c - y3) * (c - y3), b = (odd - y2) * (odd - y2);
-      const R sharp = contrast / (root_c * root_c * cosine2 + root_d * root_d * sine2);
-      const R faded = (1 - contrast) / (root_c * root_d);
-      sum.reflected += (a * cosine2 + b * sine2) * sharp / 2 +
-                       (a * root_d + b * root_c) * faded / (root_c + root_d) / 2;
-      sum.transmitted += 2 * c * y3 * (sharp + faded);
-    };
-    add(g2, g3);
-    add(g2 / (ior * ior), g3 / (far * far));
-    return {std::min(sum.reflected, R(1)), std::min(sum.transmitted, R(1))};
-  }
-
  private:
   using C = std::complex<R>;
 
@@ -102,13 +93,7 @@ struct Film {
     fringes = phases * (ior - std::sqrt(std::max((ior - 1) * (ior + 1), R(0)))) / kPi<R>;
   }
 
-  /// (n cos)^2 in a medium of index `n`, as in refraction_g2 where the sine is near sin.
-  template <class T>
-  static T normal_square(R c, R near, T n) {
-    return c > R(0.7) ? n * n - near * near * (1 - c) * (1 + c)
-                      : (n - near) * (n + near) + near * near * (c * c);
-  }
-  static R root(R x) { return x > 0 ? std::sqrt(x) : R(0); }
+  static R root(R x) { return detail::root_above(x); }
   static C root(C x) { return std::sqrt(x); }
   /// |a - i b|^2.
   static R norm(R a, R b) { return a * a + b * b; }
@@ -116,6 +101,77 @@ struct Film {
   /// Re(a conj b).
   static R real_product(R a, R b) { return a * b; }
   static R real_product(C a, C b) { return a.real() * b.real() + a.imag() * b.imag(); }
+};
+
+/// Films of one index between outside and a real `far`, along N directions of incidence: all but
+/// the phase, in which alone wavelengths of the same indices differ.
+template <class R, int N = 1>
+class FilmAlong {
+ public:
+  using Values = std::array<R, N>;
+
+  FilmAlong() = default;
+  /// \pre cosines in [0, 1]
+  FilmAlong(const Values& cosines, R ior, R far) : ior_(ior), far_(far) {
+    for (int i = 0; i < N; ++i) {
+      const R c = cosines[i];
+      g2_[i] = detail::root_above(detail::normal_square(c, R(1), ior));
+      const R g3 = detail::root_above(detail::normal_square(c, R(1), far));
+      waves_[0].set(i, c, g2_[i], g3);
+      waves_[1].set(i, c, g2_[i] / (ior * ior), g3 / (far * far));
+    }
+  }
+
+  /// Whether it is of these indices.
+  bool is_of(R ior, R far) const { return ior == ior_ && far == far_; }
+
+  /// Film::split, but of fringes as `contrast` in [0, 1] has them: of 0 it is the mean over films
+  /// of all thicknesses, so over b. Of each polarisation,
+  ///   (A cos^2 b + B sin^2 b) / (C cos^2 b + D sin^2 b)
+  /// has the mean (A / sqrt C + B / sqrt D) / (sqrt C + sqrt D).
+  /// \pre neither index is below 1
+  FresnelSplit<Values> split(R phases, R contrast) const {
+    const R faded = 1 - contrast;
+    Values cosine2;
+    for (int i = 0; i < N; ++i) cosine2[i] = (1 + std::cos(2 * phases * g2_[i])) / 2;
+    FresnelSplit<Values> sum{};
+    for (const Waves& w : waves_)
+      for (int i = 0; i < N; ++i) {
+        const R sine2 = 1 - cosine2[i];
+        const R sharp = contrast / (w.c[i] * cosine2[i] + w.d[i] * sine2);
+        sum.reflected[i] += (w.a[i] * cosine2[i] + w.b[i] * sine2) * sharp / 2 + faded * w.mean[i];
+        sum.transmitted[i] += w.through[i] * (sharp + faded * w.mean_inverse[i]);
+      }
+    for (int i = 0; i < N; ++i) {
+      sum.reflected[i] = std::min(sum.reflected[i], R(1));
+      sum.transmitted[i] = std::min(sum.transmitted[i], R(1));
+    }
+    return sum;
+  }
+
+ private:
+  /// Of one polarisation.
+  struct Waves {
+    Values a{}, b{}, c{}, d{}, through{}, mean{}, mean_inverse{};
+
+    /// By the admittances. Along the surface, where y1 is 0, all is reflected.
+    void set(int i, R y1, R y2, R y3) {
+      if (!(y1 > 0)) {
+        a[i] = b[i] = c[i] = d[i] = 1, mean[i] = R(0.5);
+        return;
+      }
+      const R odd = y1 * y3 / y2, root_c = y1 + y3, root_d = odd + y2;
+      a[i] = (y1 - y3) * (y1 - y3), b[i] = (odd - y2) * (odd - y2);
+      c[i] = root_c * root_c, d[i] = root_d * root_d;
+      through[i] = 2 * y1 * y3;
+      mean_inverse[i] = 1 / (root_c * root_d);
+      mean[i] = (a[i] * root_d + b[i] * root_c) * mean_inverse[i] / (root_c + root_d) / 2;
+    }
+  };
+
+  R ior_ = 0, far_ = 0;
+  Values g2_{};
+  std::array<Waves, 2> waves_;
 };
 
 }  // namespace mms::materials
