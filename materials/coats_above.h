@@ -61,13 +61,6 @@ struct CoatAbove {
   R cosine_inside(int j, R z) const { return ior ? numbers.cosine_inside(j, z) : z; }
 };
 
-/// One entry for each node of a layout; entries beyond it are not initialised.
-template <class T>
-union PerNode {
-  PerNode() {}
-  std::array<T, kMaxNodes> of;
-};
-
 /// The same of what takes long to solve for: kept where the next time asks for no other.
 template <class T>
 struct SolvedPerNode {

@@ -14,13 +14,11 @@
 #include <span>
 #include <vector>
 
+#include "materials/nodes.h"
 #include "materials/table.h"
 #include "vm/program.h"
 
 namespace mms::materials {
-
-/// Trees are limited to this many nodes (ARCHITECTURE.md: at most 64 lobes).
-inline constexpr int kMaxNodes = 64;
 
 class Layout {
  public:

@@ -19,8 +19,8 @@
 #include "base/warp.h"
 #include "materials/coat.h"
 #include "materials/coated.h"
-#include "materials/layout.h"
 #include "materials/lobe.h"
+#include "materials/nodes.h"
 
 namespace mms::materials {
 
