@@ -60,6 +60,7 @@ class Weights {
       case Lobe::Add:
         return at(node.children[0]) + at(node.children[1]);
       case Lobe::Turn:
+      case Lobe::Tilt:
         return at(node.children[0]);
       default:
         return tint(node);

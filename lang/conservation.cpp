@@ -29,7 +29,7 @@ double stated_weight(const Module& module, const MaterialTree& m) {
   const double weight = std::clamp(first, 0.0, 1.0);  // of a factor; unknown: 0
   const auto part = [&](std::size_t k) { return stated_weight(module, *m.children[k]); };
   if (row == "material add") return part(0) + part(1);
-  if (row == "material turn") return part(0);
+  if (row == "material turn" || row == "material tilt") return part(0);
   if (row == "material scale") return weight * part(0);
   if (row == "material mix" && first >= 0) return (1 - weight) * part(0) + weight * part(1);
   if (m.children.size() == 2) return std::min(part(0), part(1));
@@ -44,6 +44,7 @@ MaterialPtr sole_part(const Module& module, const MaterialTree& m) {
   if (row == "material mix") return is(0, 0) ? m.children[0] : is(0, 1) ? m.children[1] : nullptr;
   if (row == "material scale") return is(0, 1) ? m.children[0] : nullptr;
   if (row == "material turn") return is(0, 0) ? m.children[0] : nullptr;
+  if (row == "material tilt") return is(0, 0) && is(1, 0) ? m.children[0] : nullptr;
   if (row == "material fresnel_mix") return is(0, 1) ? m.children[0] : nullptr;
   if (row == "material layer") return is(0, 0) ? m.children[1] : nullptr;
   if (row == "material coat") return is(2, 1) && (is(0, 0) || is(1, 0)) ? m.children[1] : nullptr;

@@ -25,7 +25,8 @@
 /// * Mode. Radiance: `wi` is where light comes from, refraction scales f by (n_o/n_i)^2 (radiance
 ///   is compressed). Importance: `wi` is where light goes on to (light and photon paths), no scale.
 ///   f_Importance(wo, wi) = f_Radiance(wi, wo). Nothing else depends on the mode, but that `sheen`
-///   and what it covers by `layer` are not reciprocal on one side either.
+///   and what it covers by `layer` are not reciprocal on one side either, nor is `tilt`, whose
+///   normal is held back by `wo` in both modes (materials/frames.h).
 /// * Numbers out of range (negative or NaN colour, roughness, ...) are clamped into range.
 
 #include <bitset>
@@ -35,10 +36,10 @@
 #include "materials/coats_above.h"
 #include "materials/dielectric.h"
 #include "materials/film.h"
+#include "materials/frames.h"
 #include "materials/layout.h"
 #include "materials/lobe.h"
 #include "materials/microfacet.h"
-#include "materials/turn.h"
 #include "materials/under_coats.h"
 
 namespace mms::materials {
@@ -69,7 +70,7 @@ class Bsdf {
   struct Choice {
     PerNode<Spectrum<R>> probability;     ///< of lobes only
     bool any = false;                     ///< the hero has something to choose from
-    Turns<R> turns;                       ///< of the tangents of lobes
+    Frames<R> frames;                     ///< of parts
     PerNode<CoatAbove<R>> coats;          ///< where there is more than one node
     PerNode<OverGlass<R>> glass;          ///< of coats that are over glass
     SolvedPerNode<UnderCoats<R>> under;   ///< of lobes that have several coats above or are of one
@@ -118,13 +119,14 @@ class Bsdf {
                                              const Choice& choice) const;
 
   void find_coated_glass(Vec3<R> wo, Choice& choice) const;
-  /// Over what a coat right above node `base` lies, light along `w` being seen.
+  /// Over what a coat right above node `base` lies, light along `w`, of the surface's frame, being
+  /// seen.
   Sent<R> sent_back(int base, Vec3<R> w, const Choice& choice) const;
   Spectrum<R> mean_spread(int base, bool inside, const Choice& choice) const;
   /// The coat that node `i` is the combiner of, over glass, or null.
   const OverGlass<R>* over_glass(int i, const Choice& choice) const;
-  /// Of the coats above a Lambert lobe.
-  Spectrum<R> mean_through_coats(int lobe, Choice& choice) const;
+  /// Of the coats above a Lambert lobe, right below which node `base` is.
+  Spectrum<R> mean_through_coats(int lobe, int base, Choice& choice) const;
 
   /// `visit(model)` for the lobe of node `i`; `none` for combiners and phase functions.
   template <class Result, class Visit>

@@ -72,22 +72,27 @@ inline const auto& seen(const M& model, Vec3<R> wo, int i, const typename Bsdf<R
 template <class R, class M>
 inline Lobes<R> evaluate(const M& model, Vec3<R> wo, Vec3<R> wi, Mode mode, int i,
                          const typename Bsdf<R>::Choice& choice) {
-  wo = choice.turns.seen(i, wo), wi = choice.turns.seen(i, wi);
+  const R share = choice.frames.share(i, wo, wi, mode);
+  if (share == 0) return {};
+  wo = choice.frames.seen(i, wo), wi = choice.frames.seen(i, wi);
+  Lobes<R> l;
   if constexpr (requires { model.seen(wo); })
-    return model.evaluate(wo, wi, mode, seen<R>(model, wo, i, choice));
+    l = model.evaluate(wo, wi, mode, seen<R>(model, wo, i, choice));
   else
-    return model.evaluate(wo, wi, mode);
+    l = model.evaluate(wo, wi, mode);
+  if (share != 1) l.f *= share;
+  return l;
 }
 template <class R, class M>
 inline bool sample(const M& model, Vec3<R> wo, R u_lobe, R u1, R u2, int i,
                    const typename Bsdf<R>::Choice& choice, Vec3<R>& wi) {
-  wo = choice.turns.seen(i, wo);
+  wo = choice.frames.seen(i, wo);
   bool drawn;
   if constexpr (requires { model.seen(wo); })
     drawn = model.sample(wo, u_lobe, u1, u2, seen<R>(model, wo, i, choice), wi);
   else
     drawn = model.sample(wo, u_lobe, u1, u2, wi);
-  wi = choice.turns.unseen(i, wi);
+  wi = choice.frames.unseen(i, wi);
   return drawn;
 }
 
@@ -175,6 +180,7 @@ Result Bsdf<R>::with_model(int i, Result none, Visit visit) const {
     case Lobe::Add:
     case Lobe::Layer:
     case Lobe::Turn:
+    case Lobe::Tilt:
       break;
   }
   return none;
@@ -196,12 +202,12 @@ bool Bsdf<R>::specular_only() const {
 template <class R>
 void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
   choice.any = false;
-  choice.turns.reset();
+  choice.frames.reset();
   if (node_count() == 0 || in_surface(wo)) return;
   auto& probability = choice.probability.of;
   // Of a node's model; what that has seen along `wo` is remembered.
   const auto estimate = [&](int i) {
-    const Vec3<R> w = choice.turns.seen(i, wo);
+    const Vec3<R> w = choice.frames.seen(i, wo);
     return with_model(i, Spectrum<R>(), [&](const auto& model) {
       if (!detail::is_specular(model)) detail::see<R>(model, w, i, choice);
       return model.estimate(w);
@@ -215,10 +221,10 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
     return;
   }
   Spectrum<R> sum;
-  choice.turns.find(*layout_, params_);
-  find_coats(*layout_, params_, wo, choice.coats);
+  choice.frames.find(*layout_, params_, wo);
+  find_coats(*layout_, params_, choice.frames, wo, choice.coats);
   if (layout_->transmits()) find_coated_glass(wo, choice);
-  weigh_for_choice(*layout_, params_, wo, &choice.coats, choice.probability);
+  weigh_for_choice(*layout_, params_, choice.frames, wo, &choice.coats, choice.probability);
   for (int i = 0; i < node_count(); ++i) {
     const OverGlass<R>* glass = over_glass(i, choice);
     probability[i] *= glass ? glass->o.all() * glass->colour : estimate(i);
@@ -231,12 +237,14 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
   for (int i = 0; i < node_count(); ++i) {
     const CoatAbove<R>& coat = choice.coats.of[i];
     const bool part = coat.part_of >= 0;
-    if (!part && !coat.ior) continue;
-    const Vec3<R> w = choice.turns.seen(i, wo);
+    if (!part && coat.matte_base < 0) continue;
+    const Vec3<R> w = choice.frames.seen(i, wo);
     with_model(i, 0, [&](const auto& model) {
       if constexpr (detail::kLambert<R, std::decay_t<decltype(model)>>) {
-        if (coat.ior) choice.coats.of[coat.base].mean = mean_through_coats(i, choice);
+        if (const int base = coat.matte_base; base >= 0)
+          choice.coats.of[base].mean = mean_through_coats(i, base, choice);
       }
+      if (!part && !coat.ior) return 0;
       const auto solve = [&](const CoatedLobe<R>& lobe) {
         if (!is_solved_for(choice.coats, coat)) return;
         choice.under.solve(i, lobe.round(), coats_above(choice.coats, coat, lobe.broad()));
@@ -259,8 +267,8 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
 }
 
 template <class R>
-Spectrum<R> Bsdf<R>::mean_through_coats(int lobe, Choice& choice) const {
-  const CoatAbove<R>& above = choice.coats.of[lobe];
+Spectrum<R> Bsdf<R>::mean_through_coats(int lobe, int base, Choice& choice) const {
+  const CoatAbove<R>& above = choice.coats.of[base];
   Spectrum<R> mean;
   if (above.upper < 0 && !above.numbers.filmed()) {
     for (int j = 0; j < kWavelengths; ++j)
@@ -296,7 +304,7 @@ Sent<R> Bsdf<R>::sent_back(int base, Vec3<R> w, const Choice& choice) const {
   const auto add = [&](const SentBack<R>& back, const Spectrum<R>& weight) {
     for (int j = 0; j < kWavelengths; ++j) {
       // Of light outside, directions say what passes the layers (materials/combine.h).
-      const R layers = w.z > 0 ? R(1) : coats.layers(j, back.cosine[j]);
+      const R layers = choice.frames.seen(base, w).z > 0 ? R(1) : coats.layers(j, back.cosine[j]);
       const R share = weight[j] * back.share[j] * layers * layers;
       const R spread = back.broad * above.kind.broad(j);
       sent.mirrored[j] += share * (1 - spread);
@@ -305,7 +313,7 @@ Sent<R> Bsdf<R>::sent_back(int base, Vec3<R> w, const Choice& choice) const {
   };
   for_each_below(*layout_, params_, choice.coats, base, [&](int i, const Spectrum<R>& weight) {
     if (!choice.coats.of[i].passed_once) return;
-    const Vec3<R> seen = choice.turns.seen(i, w);
+    const Vec3<R> seen = choice.frames.seen(i, w);
     with_model(i, 0, [&](const auto& model) {
       if constexpr (requires { model.sent_back(seen, coats); })
         add(model.sent_back(seen, coats), weight);
@@ -349,11 +357,12 @@ Spectrum<R> Bsdf<R>::mean_spread(int base, bool inside, const Choice& choice) co
       const R t = R(gauss<kPoints>().x[k]), x = at + reach * t * t * t;
       const R z = std::sqrt(x), s = std::sqrt(1 - x);
       const R weight = R(gauss<kPoints>().w[k]) * 3 * t * t * std::abs(reach);
-      const int azimuths = !stretched ? 1 : choice.turns.any() ? 8 : 4;
+      const int azimuths = !stretched ? 1 : choice.frames.any() ? 8 : 4;
       for (int a = 0; a < azimuths; ++a) {
         const R phi = (R(a) + R(0.5)) * (kPi<R> / 8);
         const Vec3<R> w{s * std::cos(phi), s * std::sin(phi), inside ? -z : z};
-        mean += sent_back(base, w, choice).spread * (weight / R(azimuths));
+        mean +=
+            sent_back(base, choice.frames.unseen(base, w), choice).spread * (weight / R(azimuths));
       }
     }
   }
@@ -386,17 +395,19 @@ template <class R>
 Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const {
   Lobes<R> total;
   PerNode<NodeWeight<R>> weights;
-  weigh(*layout_, params_, choice.coats, wo, wi, mode, weights);
+  weigh(*layout_, params_, choice.frames, choice.coats, wo, wi, mode, weights);
   for (int i = 0; i < node_count(); ++i) {
-    if (const OverGlass<R>* glass = over_glass(i, choice); glass && same_side(wo, wi)) {
+    const OverGlass<R>* glass = over_glass(i, choice);
+    const R share = glass && same_side(wo, wi) ? choice.frames.share(i, wo, wi, mode) : R(0);
+    if (share > 0) {
       const int base = coat_base(layout_->nodes()[i]);
       const Spectrum<R> spread = sent_back(base, wi, choice).spread;
+      const R density = std::abs(choice.frames.seen(i, wi).z) / kPi<R>;
       for (int j = 0; j < kWavelengths; ++j) {
         if (!(glass->mean[j] > 0)) continue;
         total.f[j] += weights.of[base].crossing[j] * glass->colour[j] * glass->o.spread[j] *
-                      spread[j] / (kPi<R> * glass->mean[j]);
-        total.pdf[j] +=
-            choice.probability.of[i][j] * (1 - glass->mirror_share(j)) * (std::abs(wi.z) / kPi<R>);
+                      spread[j] * share / (kPi<R> * glass->mean[j]);
+        total.pdf[j] += choice.probability.of[i][j] * (1 - glass->mirror_share(j)) * density;
       }
     }
     with_model(i, 0, [&](const auto& model) {
@@ -412,7 +423,7 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
         };
         if constexpr (requires { model.coated(wi); }) {
           if (above.part_of >= 0 || above.ior) {
-            const CoatedLobe<R> lobe = model.coated(choice.turns.seen(i, wi));
+            const CoatedLobe<R> lobe = model.coated(choice.frames.seen(i, wi));
             total.f += l.f * coated(w.bare, coated_scaling(choice.coats, above, choice.solution(i),
                                                            lobe, w.through_i));
             return 0;
@@ -421,7 +432,7 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
           if (above.passed_once && !same_side(wo, wi)) {
             total.f +=
                 l.f * coated(w.crossing, bent_scaling(choice.coats, above, choice.solution(i),
-                                                      model, choice.turns.seen(i, wi)));
+                                                      model, choice.frames.seen(i, wi)));
             return 0;
           }
         }
@@ -467,6 +478,7 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_smooth(int lobe, Vec3<R> wo, R u, R
   if (glass) {
     s.wi = square_to_cosine_hemisphere(u1, u2);
     if (wo.z < 0) s.wi.z = -s.wi.z;
+    s.wi = choice.frames.unseen(lobe, s.wi);
   }
   const bool drawn = glass || with_model(lobe, false, [&](const auto& model) {
                        if constexpr (detail::CanBeSmooth<std::decay_t<decltype(model)>>)
@@ -474,8 +486,7 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_smooth(int lobe, Vec3<R> wo, R u, R
                        else
                          return false;
                      });
-  if (!drawn) return {};
-  if (in_surface(s.wi)) return {};
+  if (!drawn || in_surface(s.wi) || choice.frames.share(lobe, wo, s.wi, mode) == 0) return {};
   const Lobes<R> l = evaluate(wo, s.wi, mode, choice);
   s.f = l.f;
   s.pdf = l.pdf;
@@ -495,7 +506,7 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u,
     }
     return with_model(i, SpecularTerms<R>{}, [&](const auto& model) {
       if constexpr (detail::CanBeSpecular<std::decay_t<decltype(model)>>)
-        if (detail::is_specular(model)) return model.terms(wo);
+        if (detail::is_specular(model)) return model.terms(choice.frames.seen(i, wo));
       return SpecularTerms<R>{};
     });
   };
@@ -507,16 +518,19 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u,
   s.specular = true;
   s.transmitted = !reflect;
   const R eta = mine.eta[0];
-  s.wi = reflect ? mirrored(wo) : refracted(wo, eta);
-  const R cos_i = std::abs(s.wi.z);
-  if (in_surface(s.wi)) return {};
+  const Vec3<R> seen = choice.frames.seen(lobe, wo);
+  s.wi = choice.frames.unseen(lobe, reflect ? mirrored(seen) : refracted(seen, eta));
+  const R share = choice.frames.share(lobe, wo, s.wi, mode);
+  if (in_surface(s.wi) || share == 0) return {};
   // Sum the deltas of all lobes that fall on this very direction.
   PerNode<NodeWeight<R>> weights;
   if (node_count() == 1)
     weights.of[0] = {};
   else
-    weigh(*layout_, params_, choice.coats, wo, s.wi, mode, weights);
+    weigh(*layout_, params_, choice.frames, choice.coats, wo, s.wi, mode, weights);
   for (int i = 0; i < node_count(); ++i) {
+    if (choice.frames.tilt(i) != choice.frames.tilt(lobe)) continue;
+    const R cos_i = std::abs(choice.frames.seen(i, s.wi).z);
     const SpecularTerms<R> t = i == lobe ? mine : terms_of(i);
     Spectrum<R> weight = weights.of[i].other;
     if (node_count() > 1) {
@@ -530,7 +544,7 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u,
     }
     for (int j = 0; j < kWavelengths; ++j) {
       if (!reflect && t.eta[j] != eta) continue;
-      const R scale = reflect || mode == Mode::Importance ? R(1) : 1 / (eta * eta);
+      const R scale = reflect || mode == Mode::Importance ? share : share / (eta * eta);
       s.f[j] += weight[j] * (reflect ? t.reflect_weight : t.transmit_weight)[j] * scale / cos_i;
       s.pdf[j] += choice.probability.of[i][j] *
                   (reflect ? t.reflect_probability : t.transmit_probability)[j];

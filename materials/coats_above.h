@@ -14,6 +14,7 @@
 #include "materials/coated.h"
 #include "materials/conductor.h"
 #include "materials/film.h"
+#include "materials/frames.h"
 #include "materials/fresnel.h"
 #include "materials/glass_coat.h"
 #include "materials/glossy.h"
@@ -42,9 +43,10 @@ struct CoatAbove {
   const R* ior = nullptr;  ///< its indices; null: there is none
   CoatKind<R> kind{};
   CoatNumbers<R> numbers{};
-  int base = -1;             ///< the node right below it
-  int upper = -1;            ///< that of a coat right above this one, if there is one
-  int part_of = -1;          ///< that of the coat of whose known lobes this node is one, or some
+  int base = -1;        ///< the node right below it
+  int matte_base = -1;  ///< the same of what is tilted below it: Lambert lobes get its factor there
+  int upper = -1;       ///< that of a coat right above this one, if there is one
+  int part_of = -1;     ///< that of the coat of whose known lobes this node is one, or some
   const R* layer = nullptr;  ///< the numbers of its `coat`, if it is one
   bool passed_once = false;  ///< by what changes sides at this lobe (materials/glass_coat.h)
   bool over_glass = false;   ///< such lobes are all or a part of what lies right below
@@ -275,7 +277,7 @@ inline Coats<R> coats_above(const PerNode<CoatAbove<R>>& coats, const CoatAbove<
 
 /// The coats right above every node, where light is seen along `wo`.
 template <class R>
-inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
+inline void find_coats(const Layout& layout, const R* params, const Frames<R>& frames, Vec3<R> wo,
                        PerNode<CoatAbove<R>>& coats) {
   const auto nodes = layout.nodes();
   auto& above = coats.of;
@@ -292,7 +294,7 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
         return;
       CoatAbove<R>& below = above[base];
       below = {.ior = ior, .kind = detail::coat_kind(layout, params, coat)};
-      below.base = base;
+      below.base = below.matte_base = base;
       below.layer = layer;
       const CoatAbove<R>* upper = above[i].ior ? &above[above[i].base] : nullptr;
       Spectrum<R> least;
@@ -305,7 +307,7 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
       if (upper)
         for (int j = 0; j < kWavelengths; ++j)
           below.nested[j] = below.numbers.eta[j] > 1 && upper->numbers.eta[j] > 1;
-      below.o = {below.numbers, std::abs(wo.z)};
+      below.o = {below.numbers, std::abs(frames.seen(i, wo).z)};
       below.through_o = below.o.through;
       for (int j = 0; j < kWavelengths; ++j)
         if (below.nested[j]) below.through_o[j] *= upper->through_o[j];
@@ -319,6 +321,8 @@ inline void find_coats(const Layout& layout, const R* params, Vec3<R> wo,
       coated(b, a, p + 1 + kWavelengths, {}, p);
     else if (node.lobe == Lobe::Layer && nodes[a].lobe == Lobe::Sheen)
       above[b] = {};
+    else if (node.lobe == Lobe::Tilt)
+      above[a] = {.matte_base = above[i].matte_base};
   }
 }
 

@@ -3,8 +3,8 @@
 
 /// \file
 /// How combiners weigh their children: from the root down, a factor for each node. Factors of
-/// `mix`, `scale` and `add` are numbers, and `turn` has none (materials/turn.h); those of
-/// `fresnel_mix` depend on both directions.
+/// `mix`, `scale` and `add` are numbers, and `turn` and `tilt` have none (materials/frames.h);
+/// those of `fresnel_mix` depend on both directions, along the coat's own normal.
 ///
 /// `fresnel_mix(base, coat, ior)` and `coat(top, base, thickness, absorption, ior)`: of light along
 /// wo the coat reflects E and lets T = 1 - E through (materials/coat.h), both from outside the
@@ -33,7 +33,9 @@
 ///   base: min(T, T')
 /// which never gains, as it is below T. All of these are symmetric. A specular coat over a Lambert
 /// base is 1 exactly; but near grazing a broad coat of which no more is known loses much: min(F,
-/// F') is small where F' is.
+/// F') is small where F' is. What is in a `tilt` gets min(T, T') too, but for Lambert's lobes:
+/// their factor never gains, as about any other normal more of the lobe is where less is let
+/// through.
 ///
 /// Where a coat lies right under another, as plastic under varnish, and so on, T is the product of
 /// all coats above, and a lobe of a coat below others gets E of its coat times their T: g and h are
@@ -149,10 +151,10 @@ struct LayerLeaves {
 
 /// Factors for the pair of directions, for every node.
 template <class R>
-inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove<R>>& coats,
-                  Vec3<R> wo, Vec3<R> wi, Mode mode, PerNode<NodeWeight<R>>& weights) {
+inline void weigh(const Layout& layout, const R* params, const Frames<R>& frames,
+                  const PerNode<CoatAbove<R>>& coats, Vec3<R> wo, Vec3<R> wi, Mode mode,
+                  PerNode<NodeWeight<R>>& weights) {
   const auto nodes = layout.nodes();
-  const R cos_o = std::abs(wo.z), cos_i = std::abs(wi.z);
   const auto under_coat = [&](int i, int base, const R* ior, NodeWeight<R>& of_base,
                               NodeWeight<R>& of_coat) {
     const CoatAbove<R>& coat = coats.of[base];
@@ -161,7 +163,8 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
       of_coat = weights.of[i] * Spectrum<R>();
       return;
     }
-    detail::weigh_fresnel_mix(coat, wo, wi, weights.of[i], of_base, of_coat);
+    detail::weigh_fresnel_mix(coat, frames.seen(i, wo), frames.seen(i, wi), weights.of[i], of_base,
+                              of_coat);
   };
   auto& w = weights.of;
   w[nodes.size() - 1] = NodeWeight<R>{};
@@ -170,7 +173,11 @@ inline void weigh(const Layout& layout, const R* params, const PerNode<CoatAbove
     const R* p = params + node.first_param;
     const int a = node.children[0], b = node.children[1];
     if (detail::weigh_by_numbers(node, p, i, w.data())) continue;
+    const R cos_o = std::abs(frames.seen(i, wo).z), cos_i = std::abs(frames.seen(i, wi).z);
     switch (node.lobe) {
+      case Lobe::Tilt:
+        w[a] = w[i];
+        break;
       case Lobe::Layer: {
         const detail::LayerLeaves<R> left(layout, params, node);
         w[a] = w[i] * Spectrum<R>(left.weight);
@@ -338,11 +345,11 @@ inline Spectrum<R> coated_weight(const PerNode<CoatAbove<R>>& coats, const CoatA
 /// Factors for choosing a lobe before wi is known: `fresnel_mix` takes F and 1 - F at wo. 0 only
 /// where `weigh` is 0 for every wi. `coats` are null where there are none.
 template <class R>
-inline void weigh_for_choice(const Layout& layout, const R* params, Vec3<R> wo,
-                             const std::type_identity_t<PerNode<CoatAbove<R>>>* coats,
+inline void weigh_for_choice(const Layout& layout, const R* params, const Frames<R>& frames,
+                             Vec3<R> wo, const std::type_identity_t<PerNode<CoatAbove<R>>>* coats,
                              PerNode<Spectrum<R>>& weights) {
-  const R cos_o = std::abs(wo.z);
-  const auto split = [&](const R* ior, int base, Spectrum<R>& reflected, Spectrum<R>& transmitted) {
+  const auto split = [&](const R* ior, int base, R cos_o, Spectrum<R>& reflected,
+                         Spectrum<R>& transmitted) {
     const CoatAbove<R>* above = coats ? &coats->of[base] : nullptr;
     if (!above || above->ior != ior) {
       const InterfaceSplits<R> s(ior, Vec3<R>{0, 0, 1}, cos_o);
@@ -368,7 +375,11 @@ inline void weigh_for_choice(const Layout& layout, const R* params, Vec3<R> wo,
     const R* p = params + node.first_param;
     const int a = node.children[0], b = node.children[1];
     if (detail::weigh_by_numbers(node, p, i, w.data())) continue;
+    const R cos_o = std::abs(frames.seen(i, wo).z);
     switch (node.lobe) {
+      case Lobe::Tilt:
+        w[a] = w[i];
+        break;
       case Lobe::Layer: {
         const detail::LayerLeaves<R> left(layout, params, node);
         w[a] = w[i] * left.weight;
@@ -378,14 +389,14 @@ inline void weigh_for_choice(const Layout& layout, const R* params, Vec3<R> wo,
       case Lobe::FresnelMix:
       case Lobe::FilmMix: {
         Spectrum<R> reflected, transmitted;
-        split(p, a, reflected, transmitted);
+        split(p, a, cos_o, reflected, transmitted);
         w[a] = w[i] * transmitted;
         w[b] = w[i] * reflected;
         break;
       }
       case Lobe::Coat: {
         Spectrum<R> reflected, transmitted;
-        split(p + 1 + kWavelengths, b, reflected, transmitted);
+        split(p + 1 + kWavelengths, b, cos_o, reflected, transmitted);
         w[a] = w[i] * reflected;
         w[b] = w[i] * transmitted;
         // Light inside that stays there never meets the layer.

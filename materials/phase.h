@@ -95,7 +95,8 @@ class Phase {
   Spectrum<R> weigh_nodes(PerNode<Spectrum<R>>& weights) const {
     Spectrum<R> sum;
     if (node_count() == 0) return sum;
-    weigh_for_choice(*layout_, params_, Vec3<R>{0, 0, 1}, nullptr, weights);
+    Frames<R> none;  // all directions are alike
+    weigh_for_choice(*layout_, params_, none, Vec3<R>{0, 0, 1}, nullptr, weights);
     for (int i = 0; i < node_count(); ++i)
       if (is_phase(i)) sum += weights.of[i];
     return sum;

@@ -33,6 +33,7 @@ Spectrumf weight_of(const Layout& layout, const float* params, int k) {
     case Lobe::Mix:
       return between(part(0), part(1), first());
     case Lobe::Turn:
+    case Lobe::Tilt:
       return part(0);
     default:
       break;

@@ -171,12 +171,13 @@ class Gaze {
                   scripts_.real(d.shade.gradient[1], lane)};
     const Frame<double> frame = shading_frame(v.point.surface, gradient, v.point.view);
     l.normal = frame.n;
-    // Light sent the other way: what enters glass is not squeezed into a narrower cone, so a clean
-    // one has albedo 1.
+    // Glass is asked for light sent the other way: what enters is not squeezed into a narrower
+    // cone, so a clean one has albedo 1.
+    using materials::Mode;
+    const Mode mode = c.material.transmits() ? Mode::Importance : Mode::Radiance;
     const Vec3f wo(frame.to_local(v.point.view));
     scatter(v, [&](float u, float a, float b) {
-      auto s = materials::Bsdf<float>(c.material, params_.data())
-                   .sample(wo, u, a, b, materials::Mode::Importance);
+      auto s = materials::Bsdf<float>(c.material, params_.data()).sample(wo, u, a, b, mode);
       if (s) s->f *= std::abs(s->wi.z);
       return s;
     });

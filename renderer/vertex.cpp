@@ -6,6 +6,7 @@
 
 #include "base/warp.h"
 #include "materials/emission.h"
+#include "materials/frames.h"
 
 namespace mms::renderer {
 
@@ -18,27 +19,9 @@ Frame<double> shading_frame(const SurfacePoint& s, const std::array<double, 2>& 
     const double l2 = dot(n, n);
     n = std::isfinite(l2) && l2 > 0 ? n / std::sqrt(l2) : s.normal;
   }
-  const Vec3d ng = s.geometric_normal;
-  const double side = dot(ng, view) < 0 ? -1 : 1;
-  const double height = side * dot(ng, view);
-  // How high above the surface the mirrored view is to stay: near the horizon no higher than the
-  // view itself, else about half a degree.
-  const double least = std::min(0.9 * height, 0.01);
-  const auto good = [&](Vec3d m) {
-    const double c = dot(m, view);
-    return c * side > 0 && side * dot(ng, m * (2 * c) - view) >= least;
-  };
-  if (const bool fit = good(n); fit && !bumpy) {
-    return {s.tangent, s.bitangent, n};
-  } else if (!fit) {
-    double bad = 0, fine = 1;  // share of the geometric normal; 1 is always good
-    for (int i = 0; i < 10; ++i) {
-      const double mid = 0.5 * (bad + fine);
-      (good(normalize(n * (1 - mid) + ng * mid)) ? fine : bad) = mid;
-    }
-    n = normalize(n * (1 - fine) + ng * fine);
-  }
-  return Frame<double>::with_tangent(n, s.tangent);
+  const Vec3d shown = materials::held_back(n, s.geometric_normal, view);
+  if (!bumpy && shown == n) return {s.tangent, s.bitangent, n};
+  return Frame<double>::with_tangent(shown, s.tangent);
 }
 
 void immerse(const materials::Layout& layout, const Spectrumf& outside, float* params) {

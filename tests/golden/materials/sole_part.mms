@@ -8,6 +8,8 @@ surface e bsdf = coat(mirror(), matte(0.5), weight, 3.0, 1.0); end
 surface f bsdf = coat(mirror(), matte(0.5), 3.0, 0.0, 1.0); end
 surface j bsdf = layer(sheen(0.5), matte(0.5), weight); end
 surface k bsdf = turn(microfacet(0.5, 0.2, 0.9), weight); end
+surface l bsdf = tilt(matte(0.5), weight, 0.0); end
+surface m bsdf = tilt(matte(0.5), weight, 0.5); end
 // A layer of index 1 that absorbs is more than what it covers; so is half of something.
 surface g bsdf = coat(mirror(), matte(0.5), 1.0, 3.0, 1.0); end
 surface h bsdf = mix(matte(0.5), mirror(), 0.5); end
@@ -23,3 +25,5 @@ surface i bsdf = fresnel_mix(matte(0.5), mirror(), 1.01); end
 // expect-output: surface i bsdf = fresnel_mix(matte(0.5), mirror(1), 1.01)
 // expect-output: surface j bsdf = matte(0.5)
 // expect-output: surface k bsdf = microfacet(0.5, 0.2, 0.9)
+// expect-output: surface l bsdf = matte(0.5)
+// expect-output: surface m bsdf = tilt(matte(0.5), 0, 0.5)

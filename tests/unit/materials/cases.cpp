@@ -80,6 +80,15 @@ std::vector<Case> smooth_cases() {
   put("turned facets under a turned coat",
       turn(coat(microfacet(1, 0.4, 0.7), turn(beckmann(ramp(0.9, 0.5), 0.5, -0.8), 0.7), 0, 0, 1.5),
            -0.4));
+  put("tilted parts under a rough coat",
+      coat(microfacet(1, 0.4),
+           mix(tilt(matte(ramp(0.3, 0.9)), 0.4, -0.2),
+               tilt(conductor(ramp(0.2, 1.3), ramp(3.4, 2.1), 0.4, 0.5), -0.3, 0.2), 0.4),
+           0.2, ramp(0.1, 1), 1.5));
+  put("tilted coat over rough glass, on a matte",
+      mix(tilt(coat(microfacet(ramp(0.9, 1), 0.5), dielectric(ramp(1.6, 1.4), 0.6), 0, 0, 1.3), 0.2,
+               0.3),
+          matte(0.7), 0.3));
   put("three coats",
       coat(glossy(1, 100),
            coat(microfacet(1, 0.4, 0.5),

@@ -18,8 +18,11 @@ struct Case {
   Material material;
   bool lossless = false;  ///< its albedo is 1 from everywhere by theory
 
-  /// All but fits to walks through fibres.
-  bool reciprocal() const { return !name.starts_with("sheen") && !name.starts_with("layer"); }
+  /// All but fits to walks through fibres, and what has a normal of its own.
+  bool reciprocal() const {
+    return !name.starts_with("sheen") && !name.starts_with("layer") && !tilted();
+  }
+  bool tilted() const { return name.starts_with("tilt"); }
 };
 
 /// A different value at each wavelength, from `first` to `last`.

@@ -178,6 +178,8 @@ Material layer(Material top, Material base, double weight) {
 
 Material turn(Material a, double angle) { return node(Lobe::Turn, {a}, {}, {angle}); }
 
+Material tilt(Material a, double u, double v) { return node(Lobe::Tilt, {a}, {}, {u, v}); }
+
 Material add(Material a, Material b) { return node(Lobe::Add, {a, b}, {}); }
 
 Vec3d direction(double degrees, double phi) {

@@ -75,6 +75,7 @@ Material film_mix(Material base, Material coat, Value ior, Value film, double th
 Material scale(Material a, Value t);
 Material layer(Material top, Material base, double weight = 1);
 Material turn(Material a, double angle);
+Material tilt(Material a, double u, double v);
 Material add(Material a, Material b);
 
 /// Direction `degrees` from +z (above 90: inside), at azimuth `phi` in radians.

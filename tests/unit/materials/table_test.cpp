@@ -38,6 +38,7 @@ TEST_CASE("formals are read off the signature") {
   CHECK(kinds(Lobe::Isotropic) == "");
   CHECK(kinds(Lobe::Scale) == "ms");
   CHECK(kinds(Lobe::Turn) == "mr");
+  CHECK(kinds(Lobe::Tilt) == "mrr");
   CHECK(kinds(Lobe::Glossy) == "sr");
 }
 
@@ -79,6 +80,7 @@ TEST_CASE("stated weights: sums add, mixtures lie between their parts, what has 
   CHECK(weight(mix(matte(1.5), matte(0.5), 0.75)) == 0.75f);
   CHECK(weight(fresnel_mix(matte(0.5), mirror(0.25), 1.5)) == 0.25f);
   CHECK(weight(turn(add(matte(0.75), mirror(1)), 0.5)) == 1.75f);
+  CHECK(weight(tilt(add(matte(0.75), mirror(1)), 0.5, 0)) == 1.75f);
   CHECK(weight(dielectric(1.5)) == 0);
   CHECK(materials::stated_weight(Layout(), nullptr) == 0);
 }
