@@ -251,18 +251,27 @@ std::optional<Ref> Elaborator::derive(Tangents& t, Ref root, std::uint32_t first
 }
 
 /// The derivative of `height` along `$tangent` and `$bitangent`: a `real[2]`.
-Value Elaborator::derive_gradient(const Value& height, Span span) {
-  deriving_ = {span, "state the `gradient` output beside `height`"};
+Value Elaborator::derive_gradient(const Value& height, const Deriving& what) {
+  const Deriving outer = deriving_;
+  deriving_ = what;
   std::vector<Value> parts;
   for (int direction : {kAlongTangent, kAlongBitangent}) {
     Tangents t;
-    const auto d = derive(t, height.refs[0], 0, direction);
+    const auto d = derive(t, localise(height.refs[0]), 0, direction);
     parts.push_back(scalar(kReal, d ? *d : real(0)));
   }
+  deriving_ = outer;
   Value v;
   v.type = types_.array(kReal, 2);
   v.parts = std::move(parts);
   return v;
+}
+
+/// The same where an expression asks for it.
+Value Elaborator::slope_of(const Value& height) {
+  return derive_gradient(
+      height,
+      {user_span_, "where a recursion begins, find the slope and hand it on as an argument"});
 }
 
 /// How much each real of `value` changes for a step of one column of `$footprint` and for one of

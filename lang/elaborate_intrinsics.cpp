@@ -47,6 +47,7 @@ Value Elaborator::call_intrinsic(std::string_view name, const std::vector<BoundA
     if (a.value.poison()) return {};
   if (name == "array") return tabulate(args[0].value, args[1].value);
   if (name == "gradient") return gradient_of(args[0].value, args[1].value);
+  if (name == "slope") return slope_of(args[0].value);
   if (name == "across_footprint") return across_footprint(args[0].value);
   if (name == "values") return values_of(args[0].value);
   if (name == "along_footprint") return along_footprint(args[0].value, args[1].value);

@@ -382,7 +382,9 @@ void Elaborator::outputs(ElaboratedDescriptor& e, Scope* scope) {
   const std::size_t height = static_cast<std::size_t>(Output::Height),
                     gradient = static_cast<std::size_t>(Output::Gradient);
   if (e.stated[height] && !e.stated[gradient] && !diagnostics_.has_errors()) {
-    e.outputs[gradient] = derive_gradient(e.outputs[height], assignment("height")->name.span);
+    e.outputs[gradient] = derive_gradient(
+        e.outputs[height],
+        {assignment("height")->name.span, "state the `gradient` output beside `height`"});
     e.stated[gradient] = true;
   }
 }

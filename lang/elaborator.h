@@ -308,7 +308,8 @@ class Elaborator {
   bool can_derive(FunctionId function);
   FunctionId derive_function(FunctionId function, int direction);
   Ref sum(std::optional<Ref> a, std::optional<Ref> b);
-  Value derive_gradient(const Value& height, Span span);
+  Value derive_gradient(const Value& height, const Deriving& what);
+  Value slope_of(const Value& height);
   std::vector<Value> footprint_columns(const Value& value);
   Value across_footprint(const Value& value);
   Value along_footprint(const Value& value, const Value& column);

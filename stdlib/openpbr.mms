@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // OpenPBR Surface 1.1 (Academy Software Foundation 2024) as a surface and the volume inside, with a
 // param for each of its names but those of normals and tangents (`geometry_normal`,
-// `geometry_tangent`, and of the coat), which are the mesh's; bumps are `height`'s, and `turn` turns
-// tangents: `mms render openpbr --set base_metalness=1`, or `import "openpbr";` and `paint alias
-// openpbr;`. `openpbr_layers.mms` has it as a function, and says what differs.
+// `geometry_tangent`, and of the coat). Those are a script's to say: bumps by `height`, or by the
+// function's `base_slope` and `coat_slope`, and `turn` turns tangents. `mms render openpbr --set
+// base_metalness=1`, or `import "openpbr";` and `paint alias openpbr;`. `openpbr_layers.mms` has the
+// function, and says what differs.
 
 param real base_weight = 1.0 in [0, 1], label = "Weight", page = "Base";
 param spectrum base_color = rgb(0.8, 0.8, 0.8), label = "Colour", page = "Base";

@@ -204,7 +204,9 @@ openpbr_medium openpbr_inside(
 ///
 /// Weights of what is specular, and of the coat, are indices (`openpbr_index`), fuzz is a `layer` of
 /// `sheen`; subsurface is entered and left like a `translucent` under the facets, which is what
-/// `subsurface_color` is fitted for, and not bent.
+/// `subsurface_color` is fitted for, and not bent. Bumps of all of it, its coat too, are the output
+/// `height` of the surface; those of what lies below the coat are `base_slope`, and those of the coat
+/// alone `coat_slope`, both as `slope` or `normal_slope` find them.
 /// >>> openpbr(base_color = 0.5, base_metalness = 1.0)
 /// >>> openpbr(base_color = rgb(0.6, 0.05, 0.02), coat_weight = 1.0)
 material openpbr(
@@ -225,7 +227,8 @@ material openpbr(
     spectrum fuzz_color = 1.0,
     real fuzz_roughness = 0.5, thin_film_weight = 0.0, thin_film_thickness = 0.5,
     thin_film_ior = 1.4,
-    logic geometry_thin_walled = false
+    logic geometry_thin_walled = false,
+    real[2] base_slope = [0, 0], coat_slope = [0, 0]
 )
     film  = thin_film_thickness * 1um;
     dark  = saturate(coat_weight) * saturate(coat_darkening);
@@ -291,8 +294,8 @@ material openpbr(
         mix(opaque, clear, saturate(transmission_weight)), metal, saturate(base_metalness)
     );
     shown = coat(
-        openpbr_gloss(1.0, coat_roughness, coat_roughness_anisotropy),
-        body,
+        tilt(openpbr_gloss(1.0, coat_roughness, coat_roughness_anisotropy), coat_slope),
+        tilt(body, base_slope),
         0.5 * saturate(coat_weight),
         absorption_from(coat_color, 1.0),
         openpbr_index(coat_ior, saturate(coat_weight))

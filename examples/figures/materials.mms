@@ -68,5 +68,9 @@ surface fresnel_mix bsdf = fresnel_mix(matte(rgb(0.8, 0.2, 0.1)), glossy(1, 400.
 surface coat bsdf = coat(glossy(1, 4000.0), matte(1), 1.0, rgb(0.05, 0.9, 0.6), 1.5); end
 surface layer bsdf = layer(sheen(rgb(0.9, 0.6, 0.5), 0.4), matte(rgb(0.4, 0.03, 0.05))); end
 surface scale bsdf = 0.5 * mirror(); end
+surface tilt
+    bsdf = coat(mirror(), bumped(matte(rgb(0.3, 0.1, 0.05)), 0.02 * perlin(9 * $object_position)),
+        0.0);
+end
 surface turn bsdf = turn(microfacet(1, 0.4, 0.9), 45deg); end
 surface add bsdf = matte(rgb(0.1, 0.3, 0.5)) + glossy(0.4, 100.0); end

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -249,7 +250,7 @@ TEST_CASE("openpbr: highlights are those of GGX, whose alpha is the square of th
 }
 
 /// f towards `wi` of light along a direction 37 degrees from the normal, at the first wavelength.
-float value(const OpenPbr& p, const std::array<float, 3>& wi) {
+float value(const Linked& p, const std::array<float, 3>& wi) {
   const float wavelengths[8] = {550e-9f, 430e-9f, 470e-9f, 510e-9f,
                                 590e-9f, 630e-9f, 670e-9f, 710e-9f};
   const MMsInput input{"wavelength", wavelengths};
@@ -257,7 +258,7 @@ float value(const OpenPbr& p, const std::array<float, 3>& wi) {
   const float wo[3] = {0.6f, 0, 0.8f};
   float f[8];
   REQUIRE_MESSAGE(p.context, p.log);
-  REQUIRE(mmsEvalBsdf(p.context, p.surface(), &points, wo, wi.data(), f));
+  REQUIRE(mmsEvalBsdf(p.context, mmsGetSurface(p.program, "paint"), &points, wo, wi.data(), f));
   return f[0];
 }
 
@@ -275,6 +276,26 @@ TEST_CASE("openpbr: a rough coat roughens what is below") {
         bare({{what, "1"}, {"specular_roughness", std::to_string(std::pow(0.0593, 0.25))}});
     CHECK(value(bare, kReflected) > 1e-3f);
     CHECK(value(coated, kReflected) == doctest::Approx(value(bare, kReflected)).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("openpbr: bumps of the base and of the coat move the highlight of that alone") {
+  const std::string metal = "base_metalness = 1.0, specular_roughness = 0.3, coat_weight = 1.0",
+                    varnish =
+                        "base_weight = 0.0, specular_weight = 0.0, coat_weight = 1.0, "
+                        "coat_roughness = 0.3";
+  // 37 degrees from the normal, mirrored there and about the normal of the slope.
+  const std::array<float, 3> here{-0.6f, 0, 0.8f}, there{-0.941f, 0, 0.338f};
+  const auto seen = [](const std::string& of, const std::string& slope) {
+    return Linked("surface paint bsdf = openpbr(" + of + slope + "); end", O2);
+  };
+  for (const auto& [of, slope, other] :
+       {std::tuple{metal, ", base_slope = [0.3, 0]", ", coat_slope = [0.3, 0]"},
+        std::tuple{varnish, ", coat_slope = [0.3, 0]", ", base_slope = [0.3, 0]"}}) {
+    const Linked plain = seen(of, ""), bent = seen(of, slope), same = seen(of, other);
+    CHECK(value(plain, here) > 10 * value(bent, here));
+    CHECK(value(bent, there) > 10 * value(plain, there));
+    CHECK(value(same, here) == doctest::Approx(value(plain, here)).epsilon(0.1));
   }
 }
 
