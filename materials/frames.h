@@ -98,8 +98,14 @@ class Frames {
   static Frame<R> tilted(R u, R v, Vec3<R> view) {
     const R l2 = u * u + v * v + 1;
     const Vec3<R> up{0, 0, 1};
-    const Vec3<R> n = std::isfinite(l2) ? Vec3<R>{-u, -v, 1} / std::sqrt(l2) : up;
-    return Frame<R>::with_tangent(held_back(n, up, view), {1, 0, 0});
+    const Vec3<R> n =
+        held_back(std::isfinite(l2) ? Vec3<R>{-u, -v, 1} / std::sqrt(l2) : up, up, view);
+    // Frame::with_tangent of (1, 0, 0) without its difference, of which little is left where the
+    // normal is nearly along it.
+    const R across2 = n.y * n.y + n.z * n.z;
+    if (!(across2 > R(1e-30))) return Frame<R>::around(n);
+    const Vec3<R> s = Vec3<R>{across2, -n.x * n.y, -n.x * n.z} / std::sqrt(across2);
+    return {s, cross(n, s), n};
   }
 
   /// Whether `w` is on one side of all normals from that of node i to the surface's.
