@@ -19,8 +19,8 @@ std::optional<double> known_number(const Module& module, Ref r);
 double stated_weight(const Module& module, const MaterialTree& m);
 
 /// The one part that the combiner `m` is equal to in every direction, by its constants: a `mix` of
-/// 0 or 1, a factor of 1, a turn by 0, a coat of index 1 that absorbs nothing, a layer of weight 0.
-/// Null where there is none.
+/// 0 or 1, a factor of 1, a turn or tilt by 0, a coat of index 1 that absorbs nothing, a layer of
+/// weight 0. Null where there is none.
 MaterialPtr sole_part(const Module& module, const MaterialTree& m);
 
 }  // namespace mms::lang
