@@ -98,7 +98,6 @@ struct Face {
 template <class R>
 class FacesAlong {
  public:
-  FacesAlong() = default;
   explicit FacesAlong(R z) : z_(z) {}
 
   FresnelSplit<R> split(const Face<R>& face) {
@@ -109,7 +108,7 @@ class FacesAlong {
   }
 
  private:
-  R z_ = 1;
+  R z_;
   FilmAlong<R> film_;
 };
 
