@@ -357,6 +357,12 @@ struct CoatsOnGlass {
   const std::array<CoatOnGlass<R>, kWavelengths>& law;
 
   FresnelSplit<R> split(int j, R z) const { return split_together(coats, above, j, z); }
+  /// Whether one is a film, and so no sum that glass knows the parts of.
+  bool filmed(int j) const {
+    bool any = false;
+    for_each_together(coats, above, j, [&](const CoatAbove<R>& one) { any |= one.filmed(j); });
+    return any;
+  }
   /// What their layers let through along a direction of |cosine| `z` outside.
   R layers(int j, R z) const {
     R through = 1;
@@ -376,9 +382,6 @@ inline CoatOnGlass<R> coat_on_glass(const PerNode<CoatAbove<R>>& coats, const Co
                                     int j) {
   CoatOnGlass<R> on;
   if (!(above.numbers.eta[j] > 1)) return on;
-  bool filmed = false;
-  for_each_together(coats, above, j, [&](const CoatAbove<R>& one) { filmed |= one.filmed(j); });
-  if (filmed) return on;
   // F is that of the uppermost; of others little is left below it (materials/coat.h).
   const CoatAbove<R>* top = &above;
   R through = 1, before = 1;  // along the surface, with and without the uppermost

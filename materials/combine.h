@@ -48,8 +48,7 @@
 /// and interface reflect (materials/coat.h), and g and h are solved for too. Mattes, round facets
 /// and `glossy` in it and under it keep their energy within 1e-4 where it is up to 1.2 waves thick,
 /// 3e-4 up to 2, 4e-3 up to 8 and 1e-4 above; stretched facets, for which it is taken for a bare
-/// interface that reflects as much along the normal, within 3e-2. Interfaces below it get min(T,
-/// T').
+/// interface that reflects as much along the normal, within 3e-2.
 ///
 /// Where the index is above 1, interfaces right below the coat, or below several, get what passes
 /// it once if light changes sides, twice if it stays outside, and never if it stays inside, along
@@ -63,8 +62,9 @@
 /// up to 1.5e-3, and one of anisotropy 1 in 270 by up to 3e-3. Below a polished coat under another
 /// of index below 1.03, 3e-3. Of `glossy_refraction`, of an index of at least 1, what changes sides
 /// gets g(wo) g(wi) of the directions outside, and what is sent back is the rest of T as a mirror:
-/// 1e-4. Rough `phong_glass`, rough glass under a film, and other indices, get min(T, T') as if
-/// both directions were outside, and lose up to a tenth about the critical angle.
+/// 1e-4. Under a film that is so for smooth interfaces and `glossy_refraction`. Rough
+/// `phong_glass`, rough glass of which a film is part or that is below one, and other indices, get
+/// min(T, T') as if both directions were outside, and lose up to a tenth about the critical angle.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`:

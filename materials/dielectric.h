@@ -107,7 +107,7 @@ struct RoughInterface {
     for (int j = 0; j < kWavelengths; ++j) {
       const auto& law = coats.law[j];
       known &= in_glass_tables(rough_eta(j, Vec3<R>{0, 0, 1})) &&
-               (!law.counts() || in_glass_tables(law.eta));
+               (!law.counts() || (in_glass_tables(law.eta) && !coats.filmed(j)));
     }
     return known || specular();
   }

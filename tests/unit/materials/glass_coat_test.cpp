@@ -247,6 +247,38 @@ TEST_CASE("white glass under two coats is lossless within 1e-3, from both sides"
   MESSAGE("albedo - 1 from ", range.text());
 }
 
+TEST_CASE("smooth glass and lobes that pass under a film are lossless, from both sides") {
+  struct Row {
+    std::string name;
+    Material (*make)(double ior, double x);
+  };
+  const Row rows[] = {
+      {"dielectric", [](double n, double) { return dielectric(n); }},
+      {"film_dielectric", [](double n, double) { return film_dielectric(n, 1.38, 3e-7, 5e-7); }},
+      {"phong_glass", [](double n, double) { return phong_glass(n, 1e12); }},
+      {"refraction", [](double n, double) { return refraction(n); }},
+      {"glossy_refraction", [](double n, double x) {
+         return glossy_refraction(n, {std::expm1(5 * x), 3 * x});
+       }}};
+  for (const Row& row : rows) {
+    Range smooth, glossy;
+    for (int k = 1; k <= (kSanitized ? 6 : 120); ++k) {
+      const double glass = between(1.02, 3.9, place(k, 0.8192)), degrees = angle(k, glass),
+                   ior = between(1.02, 2.5, place(k, 0.5497)), film = 1 + 1.5 * place(k, 0.4503),
+                   thickness = between(1e-8, 6e-7, place(k, 0.7549)), x = place(k, 0.6710);
+      const Material top = k % 3 ? mirror(1) : microfacet(1, 0.15 + 0.85 * place(k, 0.3117));
+      const Material m = film_mix(row.make(glass, x), top, ior, film, thickness, 5e-7);
+      (smooth_everywhere(m) ? smooth : glossy)
+          .add(two_sided(m, direction(degrees, 0.4), 1e-5),
+               text(glass, ior, x, degrees) + ", film " + std::to_string(film) + ", " +
+                   std::to_string(thickness * 1e9) + " nm");
+    }
+    CHECK_MESSAGE(std::max(smooth.most - 1, 1 - smooth.least) < 1e-5, row.name);
+    CHECK_MESSAGE(std::max(glossy.most - 1, 1 - glossy.least) < 1e-4, row.name);
+    MESSAGE(row.name, ": albedo - 1 from ", smooth.text(), ", glossy from ", glossy.text());
+  }
+}
+
 TEST_CASE("what a nearly polished coat sends back into glass is nearly what a polished one does") {
   for (const double degrees : {130.0, 150.0, 180.0}) {
     const Vec3d wo = direction(degrees, 0.4);
