@@ -21,6 +21,13 @@ std::string_view head(const MaterialTree& m) {
   return m.row->signature.substr(0, m.row->signature.find('('));
 }
 
+/// Whether all lobes of `m` are of one row.
+bool is_all(const MaterialTree& m, std::string_view row) {
+  return m.children.empty()
+             ? head(m) == row
+             : std::ranges::all_of(m.children, [row](const auto& c) { return is_all(*c, row); });
+}
+
 }  // namespace
 
 double stated_weight(const Module& module, const MaterialTree& m) {
@@ -34,6 +41,20 @@ double stated_weight(const Module& module, const MaterialTree& m) {
   if (row == "material mix" && first >= 0) return (1 - weight) * part(0) + weight * part(1);
   if (m.children.size() == 2) return std::min(part(0), part(1));
   return signature.substr(row.size()).starts_with("(spectrum colour") ? std::max(first, 0.0) : 0;
+}
+
+std::optional<double> lossy_coat_index(const Module& module, const MaterialTree& m) {
+  const std::string_view row = head(m);
+  const bool coat = row == "material coat";
+  if (coat &&
+      !(is_all(*m.children[0], "material mirror") && is_all(*m.children[1], "material matte")))
+    if (const auto index = known_number(module, m.params[2]); index && *index < 1) return index;
+  const bool mix = row == "material fresnel_mix" || row == "material film_mix";
+  const std::size_t base = coat ? 1 : mix ? 0 : m.children.size();
+  for (std::size_t k = 0; k < m.children.size(); ++k)
+    if (k != base)
+      if (const auto index = lossy_coat_index(module, *m.children[k])) return index;
+  return std::nullopt;
 }
 
 MaterialPtr sole_part(const Module& module, const MaterialTree& m) {

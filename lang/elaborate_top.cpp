@@ -372,12 +372,12 @@ void Elaborator::outputs(ElaboratedDescriptor& e, Scope* scope) {
     e.outputs[o] = v;
     if (v.material && v.material->size() > vm::limits::kLobes)
       diagnostics_.add(Diag::TooManyLobes, a->name.span, v.material->size(), vm::limits::kLobes);
+    if (static_cast<Output>(o) != Output::Material || !v.material) continue;
     constexpr double kRounding = 1e-6;  // of a sum of weights that was meant to be 1
-    if (const double w = static_cast<Output>(o) == Output::Material && v.material
-                             ? stated_weight(module, *v.material)
-                             : 0;
-        w > 1 + kRounding)
+    if (const double w = stated_weight(module, *v.material); w > 1 + kRounding)
       diagnostics_.add(Diag::NonConserving, a->name.span, w);
+    if (const auto index = lossy_coat_index(module, *v.material))
+      diagnostics_.add(Diag::CoatIndex, a->name.span, *index);
   }
   const std::size_t height = static_cast<std::size_t>(Output::Height),
                     gradient = static_cast<std::size_t>(Output::Gradient);
