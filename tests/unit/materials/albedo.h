@@ -13,9 +13,15 @@
 
 #include "base/quadrature.h"
 #include "tests/sanitized.h"
+#include "tests/setting.h"
 #include "tests/unit/materials/make.h"
 
 namespace mms::test {
+
+/// How many settings a sweep of energy tries: `all` of them in `./run nightly`, half else.
+inline int swept(int all, int sanitized) {
+  return kSanitized ? sanitized : setting("MMS_ENERGY_SWEEP", 0) > 0 ? all : all / 2;
+}
 
 /// What the hemisphere of z > 0 or z < 0 gets of `wo`, without deltas, at wavelength `j`: over
 /// x = cos^2 and the azimuth from `wo`'s opposite, both from the direction (cos^2 = `peak`) where

@@ -115,11 +115,11 @@ TEST_CASE("a lossless lobe under a rough lossless coat keeps its energy") {
       {"rough_matte", [](double x) { return tinted(Lobe::RoughMatte, 1, {x}); }, 16},
       {"matte", [](double) { return matte(1); }}};
   const Kind metal = {"conductor", [](double x) { return conductor(1, 1e25, 0.1 + 0.9 * x); }};
-  constexpr int kCases = kSanitized ? 2 : 40;
+  const int cases = swept(40, 2);
   for (const Kind& base : bases)
     for (const Kind& top : {bases[0], bases[1], bases[2], metal}) {
       Range a;
-      for (int k = 1; k <= kCases; ++k) {
+      for (int k = 1; k <= cases; ++k) {
         const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
         const double ior = 1.02 * std::pow(4 / 1.02, place(0.5497));
         const double degrees = kAngles[k % std::size(kAngles)];
@@ -143,7 +143,7 @@ TEST_CASE("a matte under a stretched coat keeps its energy") {
     for (double anisotropy : {0.3, -0.6, 0.9, 1.0}) {
       if (kSanitized && anisotropy > 0.8) continue;  // too few panels
       Range range;
-      for (int k = 1; k <= (kSanitized ? 4 : 40); ++k) {
+      for (int k = 1; k <= swept(40, 4); ++k) {
         const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
         const double ior = 1.02 * std::pow(4 / 1.02, place(0.5497));
         const Material top = row.make(0.2 + 0.8 * place(0.6710), anisotropy);
@@ -186,7 +186,7 @@ TEST_CASE("lossless lobes under a coat of several lobes keep their energy") {
        0}};
   for (const Row& row : rows) {
     Range matte_below, facets_below;
-    for (int k = 1; k <= (kSanitized ? 2 : 20); ++k) {
+    for (int k = 1; k <= swept(20, 2); ++k) {
       const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
       const double ior = 1.02 * std::pow(4 / 1.02, place(0.5497));
       const double degrees = kAngles[k % std::size(kAngles)];
@@ -263,7 +263,7 @@ TEST_CASE("what lies under a film, and a coat under one, keeps its energy") {
     Range a;
     int k = 0;
     for (const Kind& top : tops)
-      for (int n = 0; n < (kSanitized ? 1 : 12); ++n) {
+      for (int n = 0; n < swept(12, 1); ++n) {
         ++k;
         const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
         const double degrees = kAngles[k % std::size(kAngles)];
@@ -369,7 +369,7 @@ TEST_CASE("plastic under coats of several lobes, of stretched ones, and under tw
   for (const Row& row : rows) {
     if (kSanitized && row.panels > 12) continue;  // too slow
     Range a;
-    for (int k = 1; k <= (kSanitized ? 2 : 20); ++k) {
+    for (int k = 1; k <= swept(20, 2); ++k) {
       const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
       const auto ior = [&](double step) { return 1.02 * std::pow(2.5 / 1.02, place(step)); };
       a.add(albedo(
@@ -394,7 +394,7 @@ TEST_CASE("stretched facets, rough coats of them, and both keep their energy") {
       for (const double anisotropy : {0.4, 0.9}) {
         if (kSanitized && anisotropy > 0.8) continue;  // too few panels
         Range range;
-        for (int k = 1; k <= (kSanitized ? 2 : 24); ++k) {
+        for (int k = 1; k <= swept(24, 2); ++k) {
           const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
           const double ior = 1.05 * std::pow(3.5 / 1.05, place(0.5497));
           const double which = k % 3;  // 0: the coat alone is round; 1: the base alone; 2: crossed

@@ -82,7 +82,7 @@ std::string text(double glass, double coat, double roughness, double degrees) {
 template <class Facets>
 void check_round(const std::string& name, Lobe lobe, double least, double most, double bound) {
   Range range;
-  for (int k = 1; k <= (kSanitized ? 8 : 500); ++k) {
+  for (int k = 1; k <= swept(500, 8); ++k) {
     const double glass = between(1.02, 3.9, place(k, 0.8192)),
                  ior = between(1.01, 3, place(k, 0.5497));
     const double roughness = least + (most - least) * std::pow(place(k, 0.6710), 1.5);
@@ -135,7 +135,7 @@ template <class Facets>
 void check_stretched(const std::string& name, Lobe lobe) {
   for (const double anisotropy : {0.3, -0.5, 0.9, -0.9, 1.0}) {
     Range range;
-    for (int k = 1; k <= (kSanitized ? 4 : 24); ++k) {
+    for (int k = 1; k <= swept(24, 4); ++k) {
       const double glass = between(1.02, 3.9, place(k, 0.8192)),
                    ior = between(1.01, 3, place(k, 0.5497)), degrees = angle(k, glass);
       const double roughness = 0.15 + 0.85 * place(k, 0.6710);
@@ -209,7 +209,7 @@ double rough_albedo(const Material& m, double glass, double roughness, double an
 TEST_CASE("white glass under rough coats is lossless within 1e-3, from both sides") {
   for (const double anisotropy : {0.0, 0.5, -0.9}) {
     Range range;
-    for (int k = 1; k <= (kSanitized ? 3 : anisotropy == 0 ? 120 : 30); ++k) {
+    for (int k = 1; k <= swept(anisotropy == 0 ? 120 : 30, 3); ++k) {
       const double glass = between(1.02, 3.9, place(k, 0.8192)), degrees = angle(k, glass);
       const bool smooth = anisotropy == 0 && k % 4 == 0;
       const double roughness = smooth ? 0 : 0.15 + 0.85 * place(k, 0.6710);
@@ -227,7 +227,7 @@ TEST_CASE("white glass under rough coats is lossless within 1e-3, from both side
 
 TEST_CASE("white glass under two coats is lossless within 1e-3, from both sides") {
   Range range;
-  for (int k = 1; k <= (kSanitized ? 4 : 120); ++k) {
+  for (int k = 1; k <= swept(120, 4); ++k) {
     const double glass = between(1.02, 3.9, place(k, 0.8192)), degrees = angle(k, glass);
     const double roughness = k % 5 == 0 ? 0 : 0.15 + 0.85 * place(k, 0.6710);
     const Coat upper = Coat::any(k, k % 4 < 2, 0.5497),
@@ -262,7 +262,7 @@ TEST_CASE("smooth glass and lobes that pass under a film are lossless, from both
        }}};
   for (const Row& row : rows) {
     Range smooth, glossy;
-    for (int k = 1; k <= (kSanitized ? 6 : 60); ++k) {
+    for (int k = 1; k <= swept(120, 6); ++k) {
       const double glass = between(1.02, 3.9, place(k, 0.8192)), degrees = angle(k, glass),
                    ior = between(1.02, 2.5, place(k, 0.5497)), film = 1 + 1.5 * place(k, 0.4503),
                    thickness = between(1e-8, 6e-7, place(k, 0.7549)), x = place(k, 0.6710);
@@ -303,7 +303,7 @@ TEST_CASE("what a nearly polished coat sends back into glass is nearly what a po
 
 TEST_CASE("glossy lobes that pass below coats are lossless within 1e-4, from both sides") {
   Range range;
-  for (int k = 1; k <= (kSanitized ? 4 : 120); ++k) {
+  for (int k = 1; k <= swept(120, 4); ++k) {
     const double glass = between(1.001, 3.9, place(k, 0.8192)), degrees = angle(k, glass);
     const double n = std::expm1(5 * place(k, 0.6710)), n_phi = std::expm1(3 * place(k, 0.3247));
     const bool straight = k % 5 == 0;

@@ -6,6 +6,7 @@
 
 #include "materials/thin_film.h"
 #include "tests/sanitized.h"
+#include "tests/unit/materials/albedo.h"
 #include "tests/unit/materials/cases.h"
 #include "tests/unit/materials/walter.h"
 
@@ -101,7 +102,7 @@ void check_between(const auto& glass, double least, double most, double anisotro
   Worst worst;
   const auto place = [](int k, double step) { return std::fmod(k * step, 1.0); };
   constexpr double kDegrees[] = {0, 30, 60, 75, 85, 89, 89.9, 89.99};
-  for (int k = 1; k <= (kSanitized ? 8 : 300); ++k) {
+  for (int k = 1; k <= swept(300, 8); ++k) {
     const double index = std::pow(4, place(k, 0.8192)), ior = k % 3 ? 1 / index : index;
     const double roughness = least * std::pow(most / least, place(k, 0.6710));
     const auto alpha = materials::Alpha<double>::from(roughness, anisotropy);
@@ -157,7 +158,7 @@ TEST_CASE("rough glass under a film keeps its energy, from both sides") {
   for (const Row& row :
        {Row{0, 600e-9, 1e-3}, {0, 5e-6, 1e-2}, {0.6, 600e-9, 1e-3}, {-0.9, 600e-9, 5e-3}}) {
     Worst worst;
-    for (int k = 1; k <= (kSanitized ? 8 : 300); ++k) {
+    for (int k = 1; k <= swept(300, 8); ++k) {
       const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
       const double index = 1.1 * std::pow(2.5 / 1.1, place(0.8192));
       const double ior = k % 2 ? 1 / index : index, film = 1.2 + 1.2 * place(0.4503);
