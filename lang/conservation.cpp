@@ -46,9 +46,12 @@ double stated_weight(const Module& module, const MaterialTree& m) {
 std::optional<double> lossy_coat_index(const Module& module, const MaterialTree& m) {
   const std::string_view row = head(m);
   const bool coat = row == "material coat";
-  if (coat &&
-      !(is_all(*m.children[0], "material mirror") && is_all(*m.children[1], "material matte")))
-    if (const auto index = known_number(module, m.params[2]); index && *index < 1) return index;
+  if (coat) {
+    const auto index = known_number(module, m.params[2]);
+    const bool exact =
+        is_all(*m.children[0], "material mirror") && is_all(*m.children[1], "material matte");
+    if (index && *index < 1 && !exact) return index;
+  }
   const bool mix = row == "material fresnel_mix" || row == "material film_mix";
   const std::size_t base = coat ? 1 : mix ? 0 : m.children.size();
   for (std::size_t k = 0; k < m.children.size(); ++k)

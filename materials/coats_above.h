@@ -244,6 +244,14 @@ inline FresnelSplit<R> split_together(const PerNode<CoatAbove<R>>& coats, const 
   return all;
 }
 
+/// Whether one of them has a film, whose E is no sum that glass knows the parts of.
+template <class R>
+inline bool filmed_together(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above, int j) {
+  bool filmed = false;
+  for_each_together(coats, above, j, [&](const CoatAbove<R>& one) { filmed |= one.filmed(j); });
+  return filmed;
+}
+
 /// The base of a combiner that may be a coat, or -1.
 inline int coat_base(const Layout::Node& node) {
   switch (node.lobe) {
@@ -357,12 +365,7 @@ struct CoatsOnGlass {
   const std::array<CoatOnGlass<R>, kWavelengths>& law;
 
   FresnelSplit<R> split(int j, R z) const { return split_together(coats, above, j, z); }
-  /// Whether one is a film, and so no sum that glass knows the parts of.
-  bool filmed(int j) const {
-    bool any = false;
-    for_each_together(coats, above, j, [&](const CoatAbove<R>& one) { any |= one.filmed(j); });
-    return any;
-  }
+  bool filmed(int j) const { return filmed_together(coats, above, j); }
   /// What their layers let through along a direction of |cosine| `z` outside.
   R layers(int j, R z) const {
     R through = 1;
@@ -393,7 +396,7 @@ inline CoatOnGlass<R> coat_on_glass(const PerNode<CoatAbove<R>>& coats, const Co
   on.eta = top->numbers.eta[j];
   on.steep = top->numbers.shape[j].steep * before;
   on.normal = split_together(coats, above, j, R(1)).transmitted;
-  if (top == &above && above.kind.polished) return on;
+  if ((top == &above && above.kind.polished) || filmed_together(coats, above, j)) return on;
   for (int m = 0; m < kRest; ++m) {
     const R z = R(kRestCosine[m]);
     on.rest[m] =
