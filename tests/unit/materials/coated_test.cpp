@@ -369,7 +369,7 @@ TEST_CASE("plastic under coats of several lobes, of stretched ones, and under tw
   for (const Row& row : rows) {
     if (kSanitized && row.panels > 12) continue;  // too slow
     Range a;
-    for (int k = 1; k <= swept(20, 2); ++k) {
+    for (int k = 1; k <= swept(20, 1); ++k) {
       const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
       const auto ior = [&](double step) { return 1.02 * std::pow(2.5 / 1.02, place(step)); };
       a.add(albedo(
