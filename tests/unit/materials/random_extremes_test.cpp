@@ -409,7 +409,8 @@ TEST_CASE("random materials: no density integrates to above one; what lacks is w
   const int each = kSanitized ? 1 : 2;
   int integrals = 0, unresolved = 0;
   for (int k = 0; k < materials::kLobeCount; ++k) {
-    if (left_out(k)) continue;
+    // Calls of all models are above: sanitizers have no more to find here than in a third of them.
+    if (left_out(k) || (kSanitized && k % 3 != 1)) continue;
     const std::string name(materials::rows()[k].signature);
     stats::Random random(std::uint64_t(k + 200));
     Masses masses;
