@@ -43,7 +43,7 @@ struct ChiSquareTest {
   /// misplace alike.
   std::vector<double> jumps = {};
   int count = sample_count(kSanitized ? 5'000 : 100'000);
-  int pilot = kSanitized ? 2048 : 8192;  ///< draws; up to `count` until a quarter have a density
+  int pilot = kSanitized ? 2048 : 8192;  ///< draws; up to `count` until pilot / 4 have a density
   int cells = kSanitized ? 16 : 64;      ///< in each band; a power of two
   std::uint64_t seed = 1;
 };
