@@ -48,22 +48,22 @@ inline void solve(std::vector<std::vector<double>>& a) {
   }
 }
 
-/// Coefficients of the spline through `values` (at least five) at uniform nodes; the third
-/// derivative is continuous at the second and the last but one ("not a knot").
-inline std::vector<double> fit(const std::vector<double>& values) {
-  const int n = int(values.size()), size = n + 2;
-  std::vector<std::vector<double>> a(size, std::vector<double>(size + 1));
+/// The matrix, [coefficient][node], that makes of values at `n` >= 5 uniform nodes the coefficients
+/// of the spline through them; the third derivative is continuous at the second and the last but
+/// one ("not a knot").
+inline std::vector<std::vector<double>> spline_matrix(int n) {
+  const int size = coefficients(n);
+  std::vector<std::vector<double>> a(size, std::vector<double>(size + n));
   for (int i = 0; i < n; ++i) {
     a[i][i] = a[i][i + 2] = 1.0 / 6;
     a[i][i + 1] = 4.0 / 6;
-    a[i][size] = values[i];
+    a[i][size + i] = 1;
   }
   constexpr double fourth[] = {1, -4, 6, -4, 1};
   for (int j = 0; j < 5; ++j) a[n][j] = a[n + 1][size - 5 + j] = fourth[j];
   solve(a);
-  std::vector<double> c(size);
-  for (int i = 0; i < size; ++i) c[i] = a[i][size];
-  return c;
+  for (auto& row : a) row.erase(row.begin(), row.begin() + size);
+  return a;
 }
 
 /// Values over a grid of any dimension, the last axis innermost.
@@ -98,14 +98,15 @@ struct Grid {
         continue;
       }
       const int n = nodes[k], m = coefficients(n), outer = int(data.size()) / (n * inner);
+      const auto matrix = spline_matrix(n);
       std::vector<double> out(std::size_t(outer) * m * inner);
-      for (int o = 0; o < outer; ++o)
-        for (int i = 0; i < inner; ++i) {
-          std::vector<double> line(n);
-          for (int j = 0; j < n; ++j) line[j] = data[(o * n + j) * inner + i];
-          line = fit(line);
-          for (int j = 0; j < m; ++j) out[(o * m + j) * inner + i] = line[j];
+      parallel(outer * m, [&](int row) {
+        double* to = &out[std::size_t(row) * inner];
+        for (int j = 0; j < n; ++j) {
+          const double* from = &data[std::size_t(row / m * n + j) * inner];
+          for (int i = 0; i < inner; ++i) to[i] += matrix[row % m][j] * from[i];
         }
+      });
       data = std::move(out);
       inner *= m;
     }
