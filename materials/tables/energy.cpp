@@ -20,31 +20,6 @@ std::vector<float> write(const TableFiles& to, const std::string& name, const Gr
   return table;
 }
 
-/// What `loss` says along one azimuth, of |cosine| and sine.
-auto along_azimuth(const FacetLoss<double>& loss, double x, double y) {
-  return [=](double z, double s) { return loss.at({s * x, s * y, z}); };
-}
-/// Of stretched facets of an interface the difference from round ones is a spline there, whose
-/// coefficients are found once.
-auto along_azimuth(const InterfaceLoss<double>& loss, double x, double y) {
-  std::vector<double> spline;
-  if (loss.ax != loss.ay) {
-    const auto seen = loss.stretched({x, y, 0});
-    const int count = coefficients(loss.grid().direction);
-    for (int k = 0; k < count; ++k) {
-      Stencil<double> one{std::min(k, count - 4)};
-      one.weight[k - one.first] = 1;
-      spline.push_back(loss.difference(seen, seen.like(), one));
-    }
-  }
-  return [=](double z, double s) {
-    const Vec3d w{s * x, s * y, z};
-    if (spline.empty()) return loss.at(w);
-    return loss.at(loss.stretched(w),
-                   [&](double, const Stencil<double>& d) { return interpolate(spline.data(), d); });
-  };
-}
-
 /// Mean over the hemisphere in units of mean_unit of what the tables say, so that what is given
 /// back sums to what they say is lost. Of twelve azimuths, or one where all are alike.
 template <class Loss>
@@ -61,7 +36,7 @@ double from_log(double x) { return std::pow(axes::kMinMeanAlpha, 1 - x); }
 struct RoundInterface {
   float least_mean = 0, kink = 0;
   const BentGrid* bent = nullptr;
-  int points[2] = {};  ///< of quadrature over stretched facets, see Cuts
+  int points = 0;  ///< of quadrature over stretched facets, see Cuts
   std::vector<float> loss{}, mean{};
   InterfaceTables tables() const {
     return {{loss.data(), loss.data()}, {mean.data(), mean.data()}, bent, {}, {}, least_mean, kink};
@@ -143,7 +118,7 @@ void write_stretched_interface(const TableFiles& to, const std::string& name, bo
                                const RoundInterface& round) {
   using namespace axes;
   InterfaceTables tables = round.tables();
-  const auto difference = stretched_difference<Distribution>(rising, tables, round.points[!rising]);
+  const auto difference = stretched_difference<Distribution>(rising, tables, round.points);
   write_numbers(to, name + "Stretched", difference);
   tables.stretched[!rising] = difference.data();
   write(to, name + "StretchedMean",
@@ -207,8 +182,8 @@ int main(int argc, char** argv) {
   return tables::make_tables(argc, argv, [](const tables::TableFiles& to) {
     tables::write_facets<Ggx>(to, "kGgx");
     tables::write_facets<Beckmann>(to, "kBeckmann");
-    tables::write_interface<Ggx>(to, "kGgx", {kGgxLeastMean, kGgxKink, kGgxBent, {32, 22}});
+    tables::write_interface<Ggx>(to, "kGgx", {kGgxLeastMean, kGgxKink, kGgxBent, 14});
     tables::write_interface<Beckmann>(to, "kBeckmann",
-                                      {kBeckmannLeastMean, kBeckmannKink, kBeckmannBent, {20, 18}});
+                                      {kBeckmannLeastMean, kBeckmannKink, kBeckmannBent, 16});
   });
 }

@@ -32,7 +32,7 @@ double index_at(double place, bool rising) {
 /// D_k along `w`, and what it is measured in, the last.
 auto changes(const Ggx<double>& facets, double eta, Vec3d w) {
   constexpr int terms = axes::kFilmTerms;
-  return interface_mean(facets, eta, w, 24, [eta](const Way& up, const Way& down) {
+  return interface_mean(facets, eta, w, 16, [eta](const Way& up, const Way& down) {
     Numbers<terms + 1> to;
     const auto t = film_terms(eta < 1 ? down.facet : up.facet);
     for (int k = 0; k < terms; ++k) to.of[k] = t[k] * down.share * (up.taken - down.taken);

@@ -88,12 +88,18 @@ Parts<Count> further(const Facets& facets, double glass) {
   const double across = Inside ? transmitted_share(mean_inside, mean_outside, 1 / glass)
                                : transmitted_share(mean_outside, mean_inside, glass);
   const bool round = facets.ax == facets.ay;
+  const auto azimuth_mean = [&](const auto& f) {
+    return quarter_mean(facets.ax / facets.ay, round ? 1 : 6, f);
+  };
+  std::vector<decltype(along_azimuth(outside, 0, 0))> along;
+  azimuth_mean([&](double x, double y) {
+    along.push_back(along_azimuth(outside, x, y));
+    return 0.0;
+  });
   const auto sum = height_mean(
       [&](double z, double s) {
-        const double l =
-            quarter_mean(facets.ax / facets.ay, round ? 1 : 6, [&](double x, double y) {
-              return outside.at({s * x, s * y, z});
-            });
+        auto next = along.begin();
+        const double l = azimuth_mean([&](double, double) { return (*next++)(z, s); });
         Numbers<Count + kRest + 1> to;
         const auto lack = lacks<Inside, Count>(z) * l;
         std::copy(lack.of.begin(), lack.of.end(), to.of.begin());
@@ -111,7 +117,7 @@ template <bool Inside, int Count, class Facets>
 Parts<Count> sent_back(const Facets& facets, double glass, Vec3d w, const Parts<Count>& further) {
   const double eta = Inside ? 1 / glass : glass;
   Parts<Count> sent =
-      interface_mean(facets, eta, w, Inside ? 16 : 24, [](const Way& up, const Way& down) {
+      interface_mean(facets, eta, w, Inside ? 14 : 24, [](const Way& up, const Way& down) {
         const Way& out = Inside ? down : up;
         const double leaves = out.share * (1 - out.taken);
         return leaves > 0 ? lacks<Inside, Count>(out.cosine) * leaves : Parts<Count>();

@@ -78,6 +78,31 @@ auto quarter_mean(double aspect, int n, const F& f) {
   return sum / n;
 }
 
+/// What `loss` says along one azimuth, of |cosine| and sine.
+inline auto along_azimuth(const FacetLoss<double>& loss, double x, double y) {
+  return [=](double z, double s) { return loss.at({s * x, s * y, z}); };
+}
+/// Of stretched facets of an interface the difference from round ones is a spline there, whose
+/// coefficients are found once.
+inline auto along_azimuth(const InterfaceLoss<double>& loss, double x, double y) {
+  std::vector<double> spline;
+  if (loss.ax != loss.ay) {
+    const auto seen = loss.stretched({x, y, 0});
+    const int count = coefficients(loss.grid().direction);
+    for (int k = 0; k < count; ++k) {
+      Stencil<double> one{std::min(k, count - 4)};
+      one.weight[k - one.first] = 1;
+      spline.push_back(loss.difference(seen, seen.like(), one));
+    }
+  }
+  return [=](double z, double s) {
+    const Vec3d w{s * x, s * y, z};
+    if (spline.empty()) return loss.at(w);
+    return loss.at(loss.stretched(w),
+                   [&](double, const Stencil<double>& d) { return interpolate(spline.data(), d); });
+  };
+}
+
 /// The loss of one bounce off lossless facets.
 template <class Facets>
 double loss(const Facets& facets, Vec3d wo, int angles = kAngles) {

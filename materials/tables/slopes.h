@@ -100,7 +100,7 @@ class Cuts {
   static constexpr double kLeast = 1e-9;
   static constexpr int kFew = 4;
   double from_;
-  std::array<double, 16> at_;
+  std::array<double, 20> at_;
   int size_ = 0;
 };
 
@@ -128,10 +128,22 @@ struct Numbers {
   }
 };
 
+/// Visits the roots of a x^2 - 2 b x = c. Those that are no numbers are left to Cuts.
+template <class Visit>
+void visit_roots(double a, double b, double c, const Visit& visit) {
+  const double square = b * b + a * c;
+  if (!(square >= 0)) return;
+  const double q = b + std::copysign(std::sqrt(square), b);
+  visit(q / a);
+  visit(-c / q);
+}
+
 /// Mean over the facets that `wo` sees, each an interface of relative index `eta`, of `value(up,
 /// down)`, a number or a sum of some. A facet's normal is (x, y, 1), not of unit length, with x
 /// towards `wo` and y across; parts end where reflection or refraction leaves the surface grazing,
-/// or is just total, all of which are conics in (x, y). `points`: see Cuts.
+/// or is just total, all of which are conics in (x, y), and where those meet the line that the
+/// slopes of stretched facets crowd about. What leaves across their wider axis is hidden least, and
+/// much more beside that: rows are cut there too. `points`: see Cuts.
 template <class Facets, class Value>
 auto interface_mean(const Facets& facets, double eta, Vec3d wo, int points, const Value& value) {
   using Result = decltype(value(Way(), Way()));
@@ -142,6 +154,7 @@ auto interface_mean(const Facets& facets, double eta, Vec3d wo, int points, cons
   const double across = ax * ay / along;  // at one slope along, about a middle of
   const double shear = cx * cy * (ay - ax) * (ay + ax) / (along * along);  // times that slope
   const bool falls = eta < 1, round = ax == ay;
+  const double wide_x = ax > ay ? cx : cy, wide_y = ax > ay ? -cy : cx;  // the wider axis
   const double e = (1 - eta) * (1 + eta);  // where the index falls, cos^2 of the critical angle
   const double hidden_wo = facets.shadow(wo);
   const auto hidden = [&](double x, double y, double wz) {  // G2 / G1 away from 1
@@ -183,7 +196,18 @@ auto interface_mean(const Facets& facets, double eta, Vec3d wo, int points, cons
       if (z * s * x <= s2 - eta * eta) edge((eta - d) * (eta + d) / (z * z));
       edge((z + s * x) * (z + s * x) / e - 1 - x * x);
     }
-    if (!round && (cuts.empty() || across > along)) cuts.add(0);
+    if (!round) {
+      if (cuts.empty() || across > along) cuts.add(0);
+      // Normals of the component p = px + y py along that axis, of which wo has `o`.
+      const double facing = z + s * x, length2 = 1 + x * x, o = s * wide_x, px = x * wide_x,
+                   py = wide_y;
+      const auto cut = [&](double y) { cuts.add(Slopes::place((y - middle) / width)); };
+      visit_roots(o, facing * py, 2 * facing * px - o * length2, cut);
+      visit_roots(o * o + e * py * py, (o * facing - e * px) * py,
+                  (2 * o * facing - e * px) * px - o * o * length2, [&](double y) {
+                    if (facing >= o * (length2 + y * y) / (px + y * py)) cut(y);
+                  });
+    }
     const auto at = [&](double m) {
       const double u = Slopes::slope(m), v = u * width / across;
       const double weight = Slopes::derivative(m, u) * Slopes::density(t * t + v * v);
@@ -196,18 +220,20 @@ auto interface_mean(const Facets& facets, double eta, Vec3d wo, int points, cons
   Cuts cuts(away);
   if (away < -0.5) cuts.add(0);
   const auto edge = [&](double x) { cuts.add(Slopes::place(x / along)); };
-  edge((s - 1) / z);
-  edge((s + 1) / z);
-  if (falls) {
-    edge((s - eta) / z);
-    edge((s + eta) / z);
-    edge((s2 - eta * eta) / (z * s));
-    // Where light that meets facets along `wo` is just totally reflected.
-    const double a = s2 - e, root = e * (z * z + a), b = z * s + std::sqrt(std::max(0.0, root));
-    if (root > 0) {
-      edge(-b / a);
-      edge((e - z * z) / b);
+  if (falls && s > eta) edge((s - eta) * (s + eta) / (z * s));
+  for (const double k : {0.0, shear}) {  // along y = k x
+    const double n = 1 + k * k;
+    visit_roots(z * n, s, z, edge);
+    if (falls) {
+      visit_roots(z * z * n, z * s, (eta - s) * (eta + s), [&](double x) {
+        if (z * s * x <= s2 - eta * eta) edge(x);
+      });
+      // Where light that meets facets along `wo` is just totally reflected.
+      visit_roots(s2 - e * n, -z * s, e - z * z, [&](double x) {
+        if (z + s * x > 0) edge(x);
+      });
     }
+    if (round) break;
   }
   const auto along_slopes = [&](double m) {
     const double t = Slopes::slope(m), x = along * t;
