@@ -36,7 +36,6 @@ double from_log(double x) { return std::pow(axes::kMinMeanAlpha, 1 - x); }
 struct RoundInterface {
   float least_mean = 0, kink = 0;
   const BentGrid* bent = nullptr;
-  int points = 0;  ///< of quadrature over stretched facets, see Cuts
   std::vector<float> loss{}, mean{};
   InterfaceTables tables() const {
     return {{loss.data(), loss.data()}, {mean.data(), mean.data()}, bent, {}, {}, least_mean, kink};
@@ -84,7 +83,7 @@ double bent_index_at(double place, bool rising) {
 
 /// What stretched facets lose other than the round ones of the tables, over its scale.
 template <template <class> class Distribution>
-std::vector<float> stretched_difference(bool rising, const InterfaceTables& round, int points) {
+std::vector<float> stretched_difference(bool rising, const InterfaceTables& round) {
   using namespace axes;
   const auto [widths, indices, directions, degree] = round.bent[!rising];
   const ShapeFit shapes(degree);
@@ -99,8 +98,8 @@ std::vector<float> stretched_difference(bool rising, const InterfaceTables& roun
     const double z = std::max(c, kLeast * seen.root()), s = std::sqrt(1 - z * z);
     seen.x *= s, seen.y *= s, seen.z = z;
     const InterfaceLoss<double> loss{&round, seen.wide, seen.narrow, eta};
-    return (interface_loss(Distribution<double>{{seen.wide, seen.narrow}}, eta, {seen.x, seen.y, z},
-                           points) -
+    const Distribution<double> facets{{seen.wide, seen.narrow}};
+    return (interface_loss(facets, eta, {seen.x, seen.y, z}, slopes_of(facets).kPoints) -
             loss.round(like, z, s)) /
            seen.scale();
   });
@@ -118,7 +117,7 @@ void write_stretched_interface(const TableFiles& to, const std::string& name, bo
                                const RoundInterface& round) {
   using namespace axes;
   InterfaceTables tables = round.tables();
-  const auto difference = stretched_difference<Distribution>(rising, tables, round.points);
+  const auto difference = stretched_difference<Distribution>(rising, tables);
   write_numbers(to, name + "Stretched", difference);
   tables.stretched[!rising] = difference.data();
   write(to, name + "StretchedMean",
@@ -182,8 +181,8 @@ int main(int argc, char** argv) {
   return tables::make_tables(argc, argv, [](const tables::TableFiles& to) {
     tables::write_facets<Ggx>(to, "kGgx");
     tables::write_facets<Beckmann>(to, "kBeckmann");
-    tables::write_interface<Ggx>(to, "kGgx", {kGgxLeastMean, kGgxKink, kGgxBent, 14});
+    tables::write_interface<Ggx>(to, "kGgx", {kGgxLeastMean, kGgxKink, kGgxBent});
     tables::write_interface<Beckmann>(to, "kBeckmann",
-                                      {kBeckmannLeastMean, kBeckmannKink, kBeckmannBent, 16});
+                                      {kBeckmannLeastMean, kBeckmannKink, kBeckmannBent});
   });
 }

@@ -18,8 +18,10 @@ namespace mms::materials::tables {
 
 /// How slopes t of a distribution of width 1 are laid out over m in (-1, 1), so that their density
 /// times the slope's derivative is nearly flat; `density` is of t^2, `spread` how much wider the
-/// slopes across are at a slope t along.
+/// slopes across are at a slope t along. `kPoints` keep what stretched facets lose within 2e-4, see
+/// Cuts.
 struct GgxSlopes {
+  static constexpr int kPoints = 14;
   static double place(double t) { return std::atan(t) * (2 / kPi<double>); }
   static double slope(double m) { return std::tan(m * kPi<double> / 2); }
   static double derivative(double, double t) { return kPi<double> / 2 * (1 + t * t); }
@@ -27,6 +29,7 @@ struct GgxSlopes {
   static double spread(double t) { return std::sqrt(1 + t * t); }
 };
 struct BeckmannSlopes {
+  static constexpr int kPoints = 16;
   static double place(double t) { return std::tanh(t); }
   static double slope(double m) { return std::atanh(m); }
   static double derivative(double m, double) { return 1 / ((1 - m) * (1 + m)); }

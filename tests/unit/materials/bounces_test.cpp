@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one bounce off facets of an interface loses, as the tables are made from it: against sums
+// over the normals that a direction sees, which share none of its quadrature.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "materials/tables/slopes.h"
+
+using namespace mms;
+using namespace mms::materials;
+
+namespace {
+
+/// The same by a lattice of visible normals.
+double summed_loss(const auto& facets, double eta, Vec3d wo) {
+  constexpr int kNormals = 200000;
+  const double hidden = facets.shadow(wo);
+  const auto taken = [&](Vec3d wi) {
+    const double other = wo.z * facets.shadow(wi), c = std::abs(wi.z);
+    return other / (wo.z * c + hidden * c + other);
+  };
+  double sum = 0;
+  for (int k = 0; k < kNormals; ++k) {
+    const double u = (k + 0.5) / kNormals, v = std::fmod((k + 0.5) * std::numbers::phi, 1.0);
+    const Vec3d h = facets.sample_visible(wo, u, v);
+    const double c = std::min(1.0, dot(wo, h)), g2 = eta * eta - (1 - c) * (1 + c);
+    const double reflected = fresnel_dielectric(c, eta);
+    const Vec3d up = h * (2 * c) - wo;
+    sum += reflected * (up.z > 0 ? taken(up) : 1);
+    if (!(g2 > 0)) continue;
+    const Vec3d down = (h * (c - std::sqrt(g2)) - wo) / eta;
+    sum += (1 - reflected) * (down.z < 0 ? taken(down) : 1);
+  }
+  return sum / kNormals;
+}
+
+template <template <class> class Distribution>
+void check() {
+  struct Setting {
+    double wide, narrow, eta;
+    Vec3d wo;
+  };
+  // Stretched facets whose slopes crowd about a line that conics cross; wide ones across which
+  // light leaves; next to the critical angle; round ones.
+  const Setting settings[] = {
+      {0.198, 0.0198, 0.8309, {0.7971, 0.6039, 0.00499}},
+      {0.0486, 0.00486, 0.8309, {0.7904, 0.6125, 0.0003}},
+      {0.174, 0.0174, 0.8309, {0.9135, 0.4069, 0.00499}},
+      {0.0912, 0.0103, 0.8851, {0.7414, 0.6708, 0.0205}},
+      {0.502, 0.0502, 0.8309, {0.9197, 0.3919, 0.0215}},
+      {0.158, 0.0158, 0.9857, {0.6472, 0.7623, 0.00115}},
+      {0.349, 0.0349, 0.8309, {0.9069, 0.3938, 0.149}},
+      {1.92, 0.291, 0.4546, {0.07894, 0.9939, 0.0768}},
+      {3.16, 0.316, 1.76, {0.1055, 0.9924, 0.0641}},
+      {2.57, 0.389, 2.401, {0.1491, 0.9841, 0.0966}},
+      {0.0808, 0.808, 0.714, {0.699, 0.123, 0.7047}},  // the wider axis is y
+      {0.3, 0.3, 0.66, {0.7, 0, 0.714}},
+      {0.3, 0.3, 1.5, {0.999, 0, 0.0447}},
+  };
+  double worst = 0;
+  for (const auto& [wide, narrow, eta, along] : settings) {
+    const Distribution<double> facets{{wide, narrow}};
+    const Vec3d wo = normalize(along);
+    const double loss = tables::interface_loss(facets, eta, wo, tables::slopes_of(facets).kPoints);
+    const double off = loss - summed_loss(facets, eta, wo);
+    worst = std::max(worst, std::abs(off));
+    CHECK_MESSAGE(std::abs(off) < 2e-4, wide, " ", narrow, " ", eta, ": ", loss, " off by ", off);
+  }
+  MESSAGE("worst ", worst);
+}
+
+}  // namespace
+
+TEST_CASE("what one bounce off an interface of facets loses") {
+  SUBCASE("ggx") { check<Ggx>(); }
+  SUBCASE("beckmann") { check<Beckmann>(); }
+}
