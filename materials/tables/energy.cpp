@@ -158,8 +158,8 @@ void write_facets(const TableFiles& to, const std::string& name) {
           return stretched_direction(c, s, s * stretch, alpha * alpha);
         };
         const double z = std::max(cosine(std::min(x[3], 1 - kLeast), axis), kLeast * alpha);
-        return loss(Distribution<double>{{wide, narrow}}, w * std::sqrt(1 - z * z) + Vec3d{0, 0, z},
-                    kAngles);
+        return loss(Distribution<double>{{wide, narrow}},
+                    w * std::sqrt(1 - z * z) + Vec3d{0, 0, z});
       }));
   const FacetTables tables{round.data(), nullptr, stretched.data(), nullptr};
   write(to, name + "Mean", Grid({kMean}, [&](const double* x) {

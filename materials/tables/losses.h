@@ -6,7 +6,6 @@
 /// rendering.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -14,11 +13,10 @@
 #include "materials/energy.h"
 #include "materials/facets.h"
 #include "materials/tables/grid.h"
-#include "materials/tables/visible.h"
+#include "materials/tables/slopes.h"
 
 namespace mms::materials::tables {
 
-inline constexpr int kAngles = 192;
 inline constexpr double kLeast = 1e-7;  ///< an axis' first direction and width, instead of 0
 
 /// cos theta from its place along an axis that maps a cosine and a sine, by halving.
@@ -105,18 +103,8 @@ inline auto along_azimuth(const InterfaceLoss<double>& loss, double x, double y)
 
 /// The loss of one bounce off lossless facets.
 template <class Facets>
-double loss(const Facets& facets, Vec3d wo, int angles = kAngles) {
-  const auto mirrored = [&](Vec3d h) { return h * (2 * dot(wo, h)) - wo; };
-  const double so = facets.shadow(wo);
-  return visible_mean(
-      facets, wo,
-      [&](Vec3d h) {
-        const Vec3d wi = mirrored(h);
-        if (!(wi.z > 0)) return 1.0;
-        const double s = wo.z * facets.shadow(wi);
-        return s / (wo.z * wi.z + so * wi.z + s);
-      },
-      [&](Vec3d h) { return std::array{mirrored(h).z}; }, angles);
+double loss(const Facets& facets, Vec3d wo) {
+  return interface_mean(facets, 1, wo, 24, [](const Way& up, const Way&) { return up.taken; });
 }
 
 /// FacetTables::loss.
