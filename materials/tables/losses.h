@@ -101,7 +101,8 @@ inline auto along_azimuth(const InterfaceLoss<double>& loss, double x, double y)
   };
 }
 
-/// The loss of one bounce off lossless facets.
+/// The loss of one bounce off lossless mirrors: what other facets take of all that goes up. Of
+/// index 1, at which nothing else is to be cut for.
 template <class Facets>
 double loss(const Facets& facets, Vec3d wo) {
   return interface_mean(facets, 1, wo, 24, [](const Way& up, const Way&) { return up.taken; });

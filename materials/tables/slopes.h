@@ -186,25 +186,25 @@ auto interface_mean(const Facets& facets, double eta, Vec3d wo, int points, cons
   };
   const auto row = [&](double x) {
     const double t = x / along, width = across * Slopes::spread(t), middle = shear * x;
+    const double facing = z + s * x;
     Cuts cuts(round ? 0 : -1);  // round facets are alike on both sides
+    const auto cut = [&](double y) { cuts.add(Slopes::place((y - middle) / width)); };
     const auto edge = [&](double y2) {
       if (!(y2 > 0)) return;
       const double y = std::sqrt(y2);
-      cuts.add(Slopes::place((y - middle) / width));
-      if (!round) cuts.add(Slopes::place((-y - middle) / width));
+      cut(y);
+      if (!round) cut(-y);
     };
     const double d = z * x - s;
     edge((1 - d) * (1 + d) / (z * z));
     if (falls) {
       if (z * s * x <= s2 - eta * eta) edge((eta - d) * (eta + d) / (z * z));
-      edge((z + s * x) * (z + s * x) / e - 1 - x * x);
+      edge(facing * facing / e - 1 - x * x);
     }
     if (!round) {
       if (cuts.empty() || across > along) cuts.add(0);
       // Normals of the component p = px + y py along that axis, of which wo has `o`.
-      const double facing = z + s * x, length2 = 1 + x * x, o = s * wide_x, px = x * wide_x,
-                   py = wide_y;
-      const auto cut = [&](double y) { cuts.add(Slopes::place((y - middle) / width)); };
+      const double length2 = 1 + x * x, o = s * wide_x, px = x * wide_x, py = wide_y;
       visit_roots(o, facing * py, 2 * facing * px - o * length2, cut);
       visit_roots(o * o + e * py * py, (o * facing - e * px) * py,
                   (2 * o * facing - e * px) * px - o * o * length2, [&](double y) {
@@ -217,7 +217,7 @@ auto interface_mean(const Facets& facets, double eta, Vec3d wo, int points, cons
       return weight > 1e-30 ? both_ways(x, middle + width * u) * weight : Result{};
     };
     return cuts.integrate(at, points / 2) *  // rows are smoother than their sum
-           ((z + s * x) * width);
+           (facing * width);
   };
   const double away = s > 0 ? Slopes::place(-z / s / along) : -1;  // where facets turn away
   Cuts cuts(away);
