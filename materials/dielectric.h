@@ -38,11 +38,11 @@ struct BareFace {
   /// What facets lose along a direction and in the mean, for one index and all wavelengths of it.
   using Loss = R;
   template <class Facets>
-  static Loss loss(const Facets& facets, R eta, Vec3<R> w) {
+  Loss loss(const Facets& facets, R eta, Vec3<R> w) const {
     return interface_loss(facets, eta).at(w);
   }
   template <class Facets>
-  static Loss mean_loss(const Facets& facets, R eta) {
+  Loss mean_loss(const Facets& facets, R eta) const {
     return interface_loss(facets, eta).mean();
   }
   /// What that is at one of the wavelengths.
@@ -93,7 +93,7 @@ struct RoughInterface {
 
   SpecularTerms<R> terms(Vec3<R> wo) const {
     const R c = std::min(std::abs(wo.z), R(1));
-    FresnelSplit<R> s;
+    FresnelSplit<R> s{};
     return interface_terms(ior, wo, reflected, transmitted, [&](int j, R eta) {
       if (!repeated(j)) s = face.split(j, c, eta, wo.z > 0);
       return s;
@@ -144,9 +144,9 @@ struct RoughInterface {
     for (int j = 0; j < kWavelengths; ++j) {
       const R eta = rough_eta(j, wo);
       if (!same_index(j)) {
-        here = Face::loss(facets, eta, wo);
-        mean_here = Face::mean_loss(facets, eta);
-        mean_there = Face::mean_loss(facets, 1 / eta);
+        here = face.loss(facets, eta, wo);
+        mean_here = face.mean_loss(facets, eta);
+        mean_there = face.mean_loss(facets, 1 / eta);
       }
       s.law[j] = face.law(j, wo.z > 0 ? eta : 1 / eta, shared);
       s.lost[j] = s.law[j].of(here);
@@ -168,7 +168,7 @@ struct RoughInterface {
     for (int j = 0; j < kWavelengths; ++j) {
       if (!same_index(j)) {
         eta = rough_eta(j, wo);
-        spread = Face::loss(facets, reflects ? eta : 1 / eta, wi);
+        spread = face.loss(facets, reflects ? eta : 1 / eta, wi);
       }
       const R shape = seen.law[j].of(spread) / (kPi<R> * mean[j]);
       const FresnelSplit<R> further{1 - seen.transmit[j], seen.transmit[j]};
@@ -224,7 +224,7 @@ struct RoughInterface {
   /// Numbers of the face stand between those at `p` and those at `rest`.
   RoughInterface(const R* p, const R* rest)
       : ior(p),
-        face(p + kWavelengths),
+        face(p),
         facets{Alpha<R>::from(rest[0], rest[2 * kWavelengths + 1])},
         reflected(weight_at(rest + 1)),
         transmitted(weight_at(rest + kWavelengths + 1)) {}

@@ -29,15 +29,16 @@ namespace mms::materials {
 /// [0] where the index rises on the far side, [1] where it falls.
 struct FilmTables {
   const float* loss[2];       ///< [alpha][index][direction][k], isotropic
-  const float* stretched[2];  ///< [width][index][direction][term of ShapeBasis][k]
+  const float* stretched[2];  ///< [width][index][direction][k][term of ShapeBasis]
   const float* mean[2];       ///< [alpha][aspect][index][k]
 };
 extern const FilmTables kGgxFilm;
 
 namespace axes {
-inline constexpr int kFilmTerms = 6, kFilmAlpha = 18, kFilmIndex = 16, kFilmDirection[] = {36, 64};
+inline constexpr int kFilmTerms = 12;
+inline constexpr int kFilmAlpha = 18, kFilmIndex = 16, kFilmDirection[] = {36, 64};
 inline constexpr int kFilmMeanAlpha = 12, kFilmMeanAspect = 6;
-inline constexpr BentGrid kFilmBent[] = {{8, 10, 16, 8}, {10, 12, 24, 10}};
+inline constexpr BentGrid kFilmBent[] = {{8, 10, 16, 10}, {10, 14, 36, 11}};
 
 /// Of indices from 1.0002 to 4, or their inverses.
 template <class R>
@@ -60,60 +61,70 @@ template <class R>
 struct FilmedLoss {
   R bare = 0, terms[axes::kFilmTerms] = {};
 
+  /// The first `count` of the terms.
   static FilmedLoss at(const FilmTables& tables, const InterfaceLoss<R>& loss,
-                       const FacetLoss<R>& mirrors, Vec3<R> w) {
+                       const FacetLoss<R>& mirrors, Vec3<R> w, int count) {
     FilmedLoss to{loss.at(w)};
-    quotients(tables, loss, w, to.terms);
-    for (R& term : to.terms) term *= to.bare + mirrors.at(w);
+    quotients(tables, loss, w, to.terms, count);
+    const R unit = to.bare + mirrors.at(w);
+    for (int k = 0; k < count; ++k) to.terms[k] *= unit;
     return to;
   }
 
   static FilmedLoss mean(const FilmTables& tables, const InterfaceLoss<R>& loss,
-                         const FacetLoss<R>& mirrors) {
+                         const FacetLoss<R>& mirrors, int count) {
     using namespace axes;
     const R wide = std::max(loss.ax, loss.ay), narrow = std::min(loss.ax, loss.ay);
     const int n2 = kFilmTerms, n1 = n2 * coefficients(kFilmIndex),
               n0 = n1 * coefficients(kFilmMeanAspect);
     FilmedLoss to{loss.mean()};
-    add_terms(to.terms, kFilmTerms, tables.mean[loss.eta < 1], to.bare + mirrors.mean(),
+    add_terms(to.terms, count, tables.mean[loss.eta < 1], to.bare + mirrors.mean(),
               Stencil<R>::at(interface_alpha(std::sqrt(wide * narrow)), kFilmMeanAlpha), n0,
               Stencil<R>::at(aspect(wide / narrow), kFilmMeanAspect), n1,
               Stencil<R>::at(film_index(loss.eta), kFilmIndex), n2);
     return to;
   }
 
-  /// Adds what the tables hold along `w`.
+  /// Adds what the tables hold along `w`, the first `count`.
   static void quotients(const FilmTables& tables, const InterfaceLoss<R>& loss, Vec3<R> w,
-                        R (&sums)[axes::kFilmTerms]) {
+                        R (&sums)[axes::kFilmTerms], int count) {
     using namespace axes;
     const bool falls = loss.eta < 1;
     const R z = std::abs(w.z), s = std::sqrt(w.x * w.x + w.y * w.y);
     const StretchedInterface<R> f = loss.stretched({w.x, w.y, z});
     const R alpha = loss.ax == loss.ay ? loss.ax : f.like();
-    const auto add = [&](R* to, int terms, const float* table, const Stencil<R>& width, int indices,
-                         int directions) {
-      const int n1 = terms * coefficients(directions), n0 = n1 * coefficients(indices);
-      add_terms(to, terms, table, R(1), width, n0, Stencil<R>::at(film_index(loss.eta), indices),
-                n1, Stencil<R>::at(interface_direction(z, s, alpha, loss.eta), directions), terms);
+    const auto add = [&](R* to, int of_each, const float* table, const Stencil<R>& width,
+                         int indices, int directions) {
+      const int n2 = of_each * kFilmTerms, n1 = n2 * coefficients(directions),
+                n0 = n1 * coefficients(indices);
+      add_terms(to, of_each * count, table, R(1), width, n0,
+                Stencil<R>::at(film_index(loss.eta), indices), n1,
+                Stencil<R>::at(interface_direction(z, s, alpha, loss.eta), directions), n2);
     };
-    add(sums, kFilmTerms, tables.loss[falls], Stencil<R>::at(interface_alpha(alpha), kFilmAlpha),
-        kFilmIndex, kFilmDirection[falls]);
+    add(sums, 1, tables.loss[falls], Stencil<R>::at(interface_alpha(alpha), kFilmAlpha), kFilmIndex,
+        kFilmDirection[falls]);
     if (loss.ax == loss.ay) return;
     const BentGrid& grid = kFilmBent[falls];
-    R shapes[ShapeBasis<R>::kMost * kFilmTerms] = {};
+    R shapes[ShapeBasis<R>::terms(kFilmBent[1].degree) * kFilmTerms] = {};
     const int terms = ShapeBasis<R>::terms(grid.degree);
-    add(shapes, terms * kFilmTerms, tables.stretched[falls],
-        Stencil<R>::at(bent_width(alpha), grid.width), grid.index, grid.direction);
+    add(shapes, terms, tables.stretched[falls], Stencil<R>::at(bent_width(alpha), grid.width),
+        grid.index, grid.direction);
     const ShapeBasis<R> basis(f.shape(R(kWidening)), grid.degree);
-    for (int t = 0; t < terms; ++t)
-      for (int k = 0; k < kFilmTerms; ++k) sums[k] += basis.value[t] * shapes[t * kFilmTerms + k];
+    for (int k = 0; k < count; ++k) sums[k] += basis.sum(shapes + k * terms);
   }
 };
 
+/// The terms by which a film's q is known, and the points that they are found from.
+struct FilmOrder {
+  int terms, points;
+  double fringes;  ///< of films of which q is known so, within about 2e-4 of what facets lose
+};
+inline constexpr FilmOrder kThinFilm{8, 10, 1}, kThickFilm{axes::kFilmTerms, 14, 3};
+
 /// Films between two indices at Chebyshev's points of the cosine at a facet.
-template <class R>
+template <class R, const FilmOrder& kOrder>
 struct FilmPoints {
-  static constexpr int kCount = 8;
+  static constexpr int kCount = kOrder.points;
   using Values = std::array<R, kCount>;
   FilmAlong<R, kCount> films;
   Values bare{};  ///< what goes through where there is no film
@@ -123,17 +134,37 @@ struct FilmPoints {
     for (int i = 0; i < kCount; ++i) bare[i] = fresnel_split(rule().cosines[i], far).transmitted;
   }
 
+  /// Adds the terms of `film`, seen from the lower index, to `q`.
+  void add_terms(const Film<R>& film, R eta, R* q) {
+    const auto& [cosines, parts] = rule();
+    if (!films.is_of(film.ior, eta)) *this = {film.ior, eta};
+    Values through;
+    if (film.ior < 1) {
+      for (int i = 0; i < kCount; ++i) through[i] = film.split(cosines[i], R(1), eta).transmitted;
+    } else {
+      const R more = std::max(film.fringes - R(kThickFilm.fringes), R(0));
+      through = films.split(film.phases, std::exp(-more * more)).transmitted;
+    }
+    for (int i = 0; i < kCount; ++i) {
+      const R change = bare[i] > 0 ? through[i] / bare[i] - 1 : R(0);
+      through[i] = limited(change, R(-1), R(1e3));
+    }
+    for (int k = 0; k < kOrder.terms; ++k)
+      for (int i = 0; i < kCount; ++i) q[k] += parts[k][i] * through[i];
+  }
+
+ private:
   /// The points, where sums over two of his polynomials' products vanish, and what a function's
   /// values there are multiplied with for its part of each polynomial.
   struct Rule {
-    Values cosines, parts[axes::kFilmTerms];
+    Values cosines, parts[kOrder.terms];
 
     Rule() {
       for (int i = 0; i < kCount; ++i) {
         const double c = (1 + std::cos(kPi<double> * (i + 0.5) / kCount)) / 2;
         cosines[i] = R(c);
         const auto terms = film_terms(cosines[i]);
-        for (int k = 0; k < axes::kFilmTerms; ++k)
+        for (int k = 0; k < kOrder.terms; ++k)
           parts[k][i] = terms[k] * R(k == 0 ? 1 : 2) / R(kCount);
       }
     }
@@ -144,34 +175,28 @@ struct FilmPoints {
   }
 };
 
+/// Those of either order, for laws of the same indices.
+template <class R>
+struct SharedFilms {
+  FilmPoints<R, kThinFilm> thin;
+  FilmPoints<R, kThickFilm> thick;
+};
+
 /// What a film does to losses.
 template <class R>
 struct FilmLaw {
   R q[axes::kFilmTerms] = {};
 
   FilmLaw() = default;
-  /// Between outside and the index `n`. Fringes beyond one and a half fade: what many facets lose
-  /// together does not follow them. `points` are kept for laws of the same indices.
-  FilmLaw(const Film<R>& outside, R n, FilmPoints<R>& points) {
-    using Points = FilmPoints<R>;
-    const R near = std::min(n, R(1)), far = std::max(n, R(1)), eta = far / near;
+  /// Between outside and the index `n`. Fringes beyond those of the thick order fade: what many
+  /// facets lose together does not follow them.
+  FilmLaw(const Film<R>& outside, R n, bool thin, SharedFilms<R>& shared) {
+    const R near = std::min(n, R(1)), far = std::max(n, R(1));
     const Film<R> film = outside.in(near);
-    if (!points.films.is_of(film.ior, eta)) points = {film.ior, eta};
-    const auto& [cosines, parts] = Points::rule();
-    typename Points::Values through;
-    if (film.ior < 1) {
-      for (int i = 0; i < Points::kCount; ++i)
-        through[i] = film.split(cosines[i], R(1), eta).transmitted;
-    } else {
-      const R more = std::max(film.fringes - R(1.5), R(0));
-      through = points.films.split(film.phases, std::exp(-more * more)).transmitted;
-    }
-    for (int i = 0; i < Points::kCount; ++i) {
-      const R change = points.bare[i] > 0 ? through[i] / points.bare[i] - 1 : R(0);
-      through[i] = limited(change, R(-1), R(1e3));
-    }
-    for (int k = 0; k < axes::kFilmTerms; ++k)
-      for (int i = 0; i < Points::kCount; ++i) q[k] += parts[k][i] * through[i];
+    if (thin)
+      shared.thin.add_terms(film, far / near, q);
+    else
+      shared.thick.add_terms(film, far / near, q);
   }
 
   R of(const FilmedLoss<R>& loss) const {

@@ -156,7 +156,7 @@ TEST_CASE("rough glass under a film keeps its energy, from both sides") {
     double anisotropy, most, bound;
   };
   for (const Row& row :
-       {Row{0, 600e-9, 1e-3}, {0, 5e-6, 1e-2}, {0.6, 600e-9, 1e-3}, {-0.9, 600e-9, 5e-3}}) {
+       {Row{0, 1500e-9, 5e-4}, {0, 5e-6, 1e-2}, {0.6, 1500e-9, 1e-3}, {-0.9, 1500e-9, 3e-3}}) {
     Worst worst;
     for (int k = 1; k <= swept(300, 8); ++k) {
       const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
