@@ -203,6 +203,13 @@ inline R towards_normal(R x, R alpha) {
   return x - R(0.3) * alpha * (x - (1 - std::sqrt(std::max(1 - x, R(0)))));
 }
 
+/// From 0 to 1, as x is, but as a cubic root about `at`.
+template <class R>
+inline R crowded(R x, R at) {
+  const R from = std::cbrt(at);
+  return (std::cbrt(x - at) + from) / (std::cbrt(1 - at) + from);
+}
+
 /// The same of stretched facets. Steep ones of GGX are so many that their loss has a kink where
 /// light along the direction is just not reflected totally by the steepest of all, at the cosine
 /// `eta`: `kink` parts are crowded about it as a cubic root, over which a kink is smooth.
@@ -212,9 +219,8 @@ inline R bent_direction(R z, R s, R alpha, R eta, R kink) {
     return towards_normal(towards_grazing(dense_direction(z, s, width(alpha))), alpha);
   const R x = rare_direction(z, s, alpha, eta);
   if (kink == 0) return towards_normal(x, alpha);
-  const R at = angle(eta, std::sqrt((1 - eta) * (1 + eta))), from = std::cbrt(at);
-  const R place = (std::cbrt(angle(z, s) - at) + from) / (std::cbrt(1 - at) + from);
-  return towards_grazing((x + kink * place) / (1 + kink));
+  const R at = angle(eta, std::sqrt((1 - eta) * (1 + eta)));
+  return towards_grazing((x + kink * crowded(angle(z, s), at)) / (1 + kink));
 }
 
 /// Of the relative index `eta`: 0 at 1, towards 1 for 0 and infinity. Next to 1, Fresnel's factor
@@ -231,6 +237,15 @@ template <class R>
 inline R bent_index(R eta) {
   const R x = (index(eta) - R(kLeastBentIndex)) / R(kMostBentIndex - kLeastBentIndex);
   return x > 0 ? std::pow(x, R(kBentIndexPower[eta < 1])) : R(0);
+}
+
+/// That for tables of that `kink`. It is at the critical angle where the index is 1 / sqrt 2, and
+/// what crowds about both there moves as a cubic root of the index: so indices crowd about it.
+template <class R>
+inline R bent_index(R eta, R kink) {
+  constexpr R there = R(0.648247), share = R(0.5);
+  const R x = bent_index(eta);
+  return kink == 0 || !(eta < 1) ? x : (x + share * crowded(x, there)) / (1 + share);
 }
 
 /// How much azimuths of stretched facets are widened next to the narrower axis (Shape): losses
@@ -416,7 +431,7 @@ struct InterfaceLoss {
     using Basis = ShapeBasis<R>;
     const Basis basis(f.shape(widening(eta, like)), grid().degree);
     const auto a = Stencil<R>::at(bent_width(like), grid().width);
-    const auto n = Stencil<R>::at(bent_index(eta), grid().index);
+    const auto n = Stencil<R>::at(bent_index(eta, R(tables->kink)), grid().index);
     const int n2 = basis.count, n1 = n2 * coefficients(grid().direction),
               n0 = n1 * coefficients(grid().index);
     R sums[Basis::kMost] = {};

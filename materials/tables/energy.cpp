@@ -81,6 +81,17 @@ double bent_index_at(double place, bool rising) {
   return index_of(kLeastBentIndex + (kMostBentIndex - kLeastBentIndex) * place, rising);
 }
 
+/// That of tables of that `kink`.
+double kinked_index_at(double place, bool rising, double kink) {
+  if (rising || kink == 0) return bent_index_at(place, rising);
+  double lo = 0, hi = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (lo + hi) / 2;
+    (axes::bent_index(bent_index_at(middle, rising), kink) < place ? lo : hi) = middle;
+  }
+  return bent_index_at(lo, rising);
+}
+
 /// What stretched facets lose other than the round ones of the tables, over its scale.
 template <template <class> class Distribution>
 std::vector<float> stretched_difference(bool rising, const InterfaceTables& round) {
@@ -90,7 +101,7 @@ std::vector<float> stretched_difference(bool rising, const InterfaceTables& roun
   const int count = shapes.count(), terms = shapes.terms();
   const Grid values({widths, indices, directions, count}, [&](const double* x) {
     const double like = std::pow(kLeastBentRoot + (1 - kLeastBentRoot) * x[0], 2);
-    const double eta = bent_index_at(x[1], rising);
+    const double eta = kinked_index_at(x[1], rising, round.kink);
     auto seen = shapes.facets_like(int(std::lround(x[3] * (count - 1))), like, widening(eta, like));
     const double c = cosine(std::min(x[2], 1 - kLeast), [&](double z, double s) {
       return bent_direction(z, s, like, eta, double(round.kink));

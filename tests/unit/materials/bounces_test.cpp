@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "materials/energy.h"
 #include "materials/tables/slopes.h"
 
 using namespace mms;
@@ -77,4 +78,24 @@ void check() {
 TEST_CASE("what one bounce off an interface of facets loses") {
   SUBCASE("ggx") { check<Ggx>(); }
   SUBCASE("beckmann") { check<Beckmann>(); }
+}
+
+TEST_CASE("tables of stretched facets hold that where their kink crosses the critical angle") {
+  double worst = 0;
+  for (const double eta : {0.685, 0.698, 0.702, 0.7071, 0.712, 0.742})
+    for (const double wide : {0.1, 0.4, 0.63, 0.8, 1.0})
+      for (const double aspect : {5.0, 10.0})
+        for (const double azimuth : {1.0, 1.29, 1.45})
+          for (const double off : {-0.02, 0.0, 0.02}) {
+            const Ggx<double> facets{{wide, wide / aspect}};
+            const double z = std::sqrt((1 - eta) * (1 + eta)) + off, s = std::sqrt(1 - z * z);
+            const Vec3d w{s * std::cos(azimuth), s * std::sin(azimuth), z};
+            const double is = tables::interface_loss(facets, eta, w, 32);
+            const double held =
+                InterfaceLoss<double>{&facets.interface(), facets.ax, facets.ay, eta}.at(w);
+            worst = std::max(worst, std::abs(held - is));
+            CHECK_MESSAGE(std::abs(held - is) < 1e-3, eta, " ", wide, " ", aspect, " ", azimuth,
+                          " ", off, ": ", held - is);
+          }
+  MESSAGE("worst ", worst);
 }
