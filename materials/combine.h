@@ -58,13 +58,13 @@
 /// so that lossless glass is 1 from both sides: smooth 1e-5 (`dielectric`, `beckmann_dielectric`,
 /// `film_dielectric`, `phong_glass`, `refraction`), round facets of roughness from 0.02 and
 /// stretched ones from 0.1, of anisotropy up to 0.9, 1e-3 for indices of both between 1.01 and 4,
-/// as without a coat; but seen from inside one random setting of anisotropy 0.9 in 50000 is off by
-/// up to 1.5e-3, and one of anisotropy 1 in 270 by up to 3e-3. Below a polished coat under another
-/// of index below 1.03, 3e-3. Of `glossy_refraction`, of an index of at least 1, what changes sides
-/// gets g(wo) g(wi) of the directions outside, and what is sent back is the rest of T as a mirror:
-/// 1e-4. Under a film that is so for smooth interfaces and `glossy_refraction`. Rough
-/// `phong_glass`, rough glass of which a film is part or that is below one, and other indices, get
-/// min(T, T') as if both directions were outside, and lose up to a tenth about the critical angle.
+/// as without a coat; seen from inside one random setting of anisotropy 1 in 400 is off by up to
+/// 2.5e-3. Below a polished coat under another of index below 1.03, 3e-3. Of `glossy_refraction`,
+/// of an index of at least 1, what changes sides gets g(wo) g(wi) of the directions outside, and
+/// what is sent back is the rest of T as a mirror: 1e-4. Under a film that is so for smooth
+/// interfaces and `glossy_refraction`. Rough `phong_glass`, rough glass of which a film is part or
+/// that is below one, and other indices, get min(T, T') as if both directions were outside, and
+/// lose up to a tenth about the critical angle.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`:

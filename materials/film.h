@@ -46,7 +46,7 @@ struct FilmFace {
   static constexpr bool kFilmed = true;
   static constexpr int kNumbers = 2 * kWavelengths + 1;
   std::array<Film<R>, kWavelengths> films;
-  bool thin = true;  ///< see kThinFilm; its q would need more terms where more is reflected
+  bool thin = true;  ///< see kThinFilm; none is on an index below 1, where films reflect more
 
   /// Behind the index of what lies inside.
   explicit FilmFace(const R* ior) {

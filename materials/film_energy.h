@@ -114,10 +114,11 @@ struct FilmedLoss {
   }
 };
 
-/// The terms by which a film's q is known, and the points that they are found from.
+/// The terms by which a film's q is known, the points that they are found from, and up to how many
+/// fringes that is within 5e-4 of what facets lose.
 struct FilmOrder {
   int terms, points;
-  double fringes;  ///< of films of which q is known so, within about 2e-4 of what facets lose
+  double fringes;
 };
 inline constexpr FilmOrder kThinFilm{8, 10, 1}, kThickFilm{axes::kFilmTerms, 14, 3};
 
