@@ -18,10 +18,13 @@
 #include <limits>
 #include <type_traits>
 
-// The loops over lanes are vectorised only where everything in them has been inlined.
-#define MMS_INLINE [[gnu::always_inline]] inline
+#include "base/exponential.h"
 
 namespace mms::stdlib::MMS_ISA {
+
+using core::bits, core::Exponential, core::exponential_in_range, core::fused, core::kLn2High,
+    core::kLn2Low, core::kLog2E, core::kRound64, core::log_in_range, core::polynomial,
+    core::value_of;
 
 template <class R>
 inline constexpr bool kDouble = std::is_same_v<R, double>;
@@ -32,8 +35,6 @@ inline constexpr R kNan = std::numeric_limits<R>::quiet_NaN();
 
 // The compiler's own functions rather than std:: wrappers: an inline std:: function compiled here
 // for AVX2 could otherwise be the one copy that the linker keeps for everybody.
-MMS_INLINE float fused(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
-MMS_INLINE double fused(double a, double b, double c) { return __builtin_fma(a, b, c); }
 MMS_INLINE float magnitude(float x) { return __builtin_fabsf(x); }
 MMS_INLINE double magnitude(double x) { return __builtin_fabs(x); }
 MMS_INLINE float with_sign(float x, float s) { return __builtin_copysignf(x, s); }
@@ -44,28 +45,10 @@ MMS_INLINE float floor_of(float x) { return __builtin_floorf(x); }
 MMS_INLINE double floor_of(double x) { return __builtin_floor(x); }
 MMS_INLINE float trunc_of(float x) { return __builtin_truncf(x); }
 MMS_INLINE double trunc_of(double x) { return __builtin_trunc(x); }
-template <class To, class From>
-MMS_INLINE To bits(From x) {
-  return __builtin_bit_cast(To, x);
-}
 
-/// c + c1 x + c2 x^2 + ...
-template <class R>
-MMS_INLINE R polynomial(R, R c) {
-  return c;
-}
-template <class R, class... More>
-MMS_INLINE R polynomial(R x, R c, More... more) {
-  return fused(polynomial(x, more...), x, c);
-}
-
-// Adding this to a number below 2^51 (2^22) in magnitude rounds it to an integer, which then
-// stands in the low bits.
-inline constexpr double kRound64 = 0x1.8p52;
+// As kRound64, of float: to a number below 2^22.
 inline constexpr float kRound32 = 0x1.8p23f;
 
-inline constexpr double kLn2High = 0x1.62e42fefa39efp-1, kLn2Low = 0x1.abc9e3b39803fp-56;
-inline constexpr double kLog2E = 0x1.71547652b82fep+0;
 inline constexpr double kHalfPi = 0x1.921fb54442d18p+0, kHalfPiLow = 0x1.1a62633145c07p-54;
 inline constexpr double kPi = 0x1.921fb54442d18p+1;
 
@@ -172,30 +155,10 @@ MMS_INLINE float sine_float(float x) {
   return bits<float>(bits<std::uint32_t>(value) ^ flip ^ sign);
 }
 
-/// e^x as scale (1 + small), |small| < 0.42.
-struct Exponential {
-  double small, scale;
-};
-/// \pre |x| <= 200
-MMS_INLINE Exponential exponential_in_range(double x) {
-  const double t = fused(x, kLog2E, kRound64);
-  const double k = t - kRound64;
-  const double r = fused(-k, kLn2Low, fused(-k, kLn2High, x));
-  // Polynomial: relative error 5e-17.
-  const auto power = (bits<std::uint64_t>(t) << 52) + 0x3ff0000000000000ULL;
-  return {fused(r * r,
-                polynomial(r, 0x1.0000000000001p-1, 0x1.5555555555556p-3, 0x1.5555555553d63p-5,
-                           0x1.11111111109b3p-7, 0x1.6c16c1788bd90p-10, 0x1.a01a01a7c41d5p-13,
-                           0x1.a019b90d2ae7ap-16, 0x1.71de0dae63bb3p-19, 0x1.289185613a3d6p-22,
-                           0x1.af38a9b0ec855p-26),
-                r),
-          bits<double>(power)};
-}
 /// Arguments beyond 200 are taken for 200: floats end before.
 MMS_INLINE Exponential exponential(double x) {
   return exponential_in_range(x > 200 ? 200 : x < -200 ? -200 : x);
 }
-MMS_INLINE double value_of(Exponential e) { return fused(e.scale, e.small, e.scale); }
 MMS_INLINE double exp_core(double x) { return value_of(exponential(x)); }
 /// e^x - 1 without cancellation.
 MMS_INLINE double expm1_core(double x) {
@@ -203,24 +166,6 @@ MMS_INLINE double expm1_core(double x) {
   return fused(e.scale, e.small, e.scale - 1);
 }
 
-/// Natural logarithm of a positive normal double.
-MMS_INLINE double log_in_range(double x) {
-  constexpr std::uint64_t root_half = 0x3fe6a09e667f3bcdULL;
-  const std::uint64_t b = bits<std::uint64_t>(x) - root_half;
-  // The biased exponent becomes a double through the bits of 2^52 + biased.
-  const std::uint64_t biased = (b + 0x3ff0000000000000ULL) >> 52;
-  const double k = bits<double>(biased | 0x4330000000000000ULL) - (0x1p52 + 1023);
-  const double m = bits<double>((b & 0x000fffffffffffffULL) + root_half);
-  const double s = (m - 1) / (m + 1), t = s * s;
-  // Polynomial: relative error 5e-18.
-  const double log_m =
-      fused(s * t,
-            polynomial(t, 0x1.5555555555558p-1, 0x1.99999999952d7p-2, 0x1.2492492df281ap-2,
-                       0x1.c71c62e3f11e6p-3, 0x1.7462b51cb66b1p-3, 0x1.39fe51a7c18f9p-3,
-                       0x1.2b5900de53b32p-3),
-            2 * s);
-  return fused(k, kLn2High, fused(k, kLn2Low, log_m));
-}
 /// Natural logarithm of a float; -infinity at 0, NaN below.
 MMS_INLINE double log_core(double x) {
   const double edge = x == 0 ? -kInf<double> : x == kInf<double> ? x : kNan<double>;
