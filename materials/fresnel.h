@@ -20,9 +20,13 @@ struct FresnelSplit {
 
 /// g^2 = eta^2 - sin^2 at the cosine of incidence `c`: negative or 0 in total reflection. Of its
 /// two forms, c^2 + (eta^2 - 1) and eta^2 - (1 - c)(1 + c), the one that subtracts less.
+///
+/// This and what is always inlined below only select: loops over it are computed side by side.
 template <class R>
-inline R refraction_g2(R c, R eta) {
-  return c > R(0.7) ? fused(eta, eta, -(1 - c) * (1 + c)) : fused(c, c, (eta - 1) * (eta + 1));
+[[gnu::always_inline]] inline R refraction_g2(R c, R eta) {
+  const bool steep = c > R(0.7);
+  const R root = steep ? eta : c;
+  return fused(root, root, steep ? -(1 - c) * (1 + c) : (eta - 1) * (eta + 1));
 }
 
 /// Dielectric of relative index `eta` (far side over near side, > 0) at the cosine of incidence
@@ -30,29 +34,27 @@ inline R refraction_g2(R c, R eta) {
 /// r_p = e ((eta^2 + 1) c^2 - 1) / (eta^2 c + g)^2; total reflection where g^2 <= 0. At eta = 1
 /// nothing is reflected, not even at c = 0.
 template <class R>
-inline FresnelSplit<R> fresnel_split(R c, R eta) {
-  const R e = (eta - 1) * (eta + 1);
-  if (e == 0) return {R(0), R(1)};
-  const R g2 = refraction_g2(c, eta);
-  if (!(g2 > 0)) return {R(1), R(0)};
-  const R g = std::sqrt(g2), eta2 = eta * eta;
+[[gnu::always_inline]] inline FresnelSplit<R> fresnel_split(R c, R eta) {
+  const R e = (eta - 1) * (eta + 1), eta2 = eta * eta;
+  const R g2 = refraction_g2(c, eta), g = std::sqrt(g2 > 0 ? g2 : R(0));
   const R ds = c + g, dp = fused(eta2, c, g);
   const R is = 1 / (ds * ds), ip = 1 / (dp * dp);
-  const R rs = e * is;
-  const R tilt =
-      c > R(0.7) ? fused(eta2, c * c, -(1 - c) * (1 + c)) : fused(eta2 + 1, c * c, R(-1));
-  const R rp = e * tilt * ip;
-  return {std::min(R(1), (rs * rs + rp * rp) / 2), std::min(R(1), 2 * c * g * (is + eta2 * ip))};
+  const bool steep = c > R(0.7);
+  const R tilt = fused(steep ? eta2 : eta2 + 1, c * c, steep ? -(1 - c) * (1 + c) : R(-1));
+  const R rs = e * is, rp = e * tilt * ip;
+  const R up = (rs * rs + rp * rp) / 2, down = 2 * c * g * (is + eta2 * ip);
+  const R reflected = g2 > 0 ? up < 1 ? up : R(1) : R(1);
+  const R transmitted = g2 > 0 ? down < 1 ? down : R(1) : R(0);
+  return {e == 0 ? R(0) : reflected, e == 0 ? R(1) : transmitted};
 }
 
 /// Reflectance of a dielectric, as above.
 template <class R>
-inline R fresnel_dielectric(R c, R eta) {
+[[gnu::always_inline]] inline R fresnel_dielectric(R c, R eta) {
   return fresnel_split(c, eta).reflected;
 }
 
-/// sqrt(x^2 + y^2) where squares may overflow or vanish; unlike std::hypot no call. That, and what
-/// is always inlined below, lets loops over wavelengths be computed side by side.
+/// sqrt(x^2 + y^2) where squares may overflow or vanish; unlike std::hypot no call.
 template <class R>
 inline R hypotenuse(R x, R y) {
   const R a = std::abs(x), b = std::abs(y), large = a > b ? a : b, small = a > b ? b : a;
