@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/coated.h and writes them as C++ to the named file: run by the
-// build, in four minutes of one core.
+// build, in three minutes of one core.
 #include <cstdio>
 #include <string>
 #include <vector>

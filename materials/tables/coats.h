@@ -25,6 +25,46 @@ inline double cosine_at(double place) {
 inline double slope(const Ggx<double>&, double u) { return std::sqrt(u / (1 - u)); }
 inline double slope(const Beckmann<double>&, double u) { return std::sqrt(-std::log1p(-u)); }
 
+/// A facet's normal, not of unit length, and the share of the surface below such ones.
+struct Facet {
+  double x, y, share;
+};
+
+/// `count` facets over slopes as polar coordinates, by a lattice: of Fibonacci's numbers, `step`
+/// the one before. Slopes crowd at both ends so much that what is summed falls to 0 there, also
+/// what grows as a slope of GGX.
+template <class Facets>
+std::vector<Facet> all_facets(const Facets& facets, int count, int step) {
+  std::vector<Facet> all;
+  for (int k = 0; k < count; ++k) {
+    const double t = (k + 0.5) / count, u = t * t * t * (10 - t * (15 - 6 * t));
+    const double phi = 2 * kPi<double> * (k * step % count) / count;
+    const double r = slope(facets, u), weight = 30 * (t * (1 - t)) * (t * (1 - t)) / count;
+    all.push_back({r * facets.ax * std::cos(phi), r * facets.ay * std::sin(phi), weight});
+  }
+  return all;
+}
+
+/// Calls visit(wi, share) for all single bounces of light along `wo` off `all` of them, masked.
+/// Returns the area that `wo` sees, which shares are of.
+template <class Facets, class Visit>
+double single_bounces(const Facets& facets, const std::vector<Facet>& all, Vec3d wo,
+                      const Visit& visit) {
+  const double z = wo.z, shadow = facets.shadow(wo);
+  double seen = 0;
+  for (const Facet& f : all) {
+    const double facing = z + wo.x * f.x + wo.y * f.y;
+    if (!(facing > 0)) continue;
+    const double area = facing * f.share, twice = 2 * facing / (1 + f.x * f.x + f.y * f.y);
+    seen += area;
+    const double c = std::min(twice - z, 1.0);
+    if (!(c > 0)) continue;
+    const Vec3d wi{twice * f.x - wo.x, twice * f.y - wo.y, c};
+    visit(wi, area * (z + shadow) * c / (z * c + shadow * c + z * facets.shadow(wi)));
+  }
+  return seen;
+}
+
 /// Lagrange's cubic through the four nodes from the second below `x` on, a step apart.
 struct Cubic {
   int first;

@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <utility>
 #include <vector>
 
 #include "materials/facets.h"
@@ -75,42 +73,26 @@ struct Spread {
   }
 };
 
-/// What one bounce off round facets, of those that a direction sees, spreads: over a lattice of
-/// them, but for how much it is altogether.
-template <class Facets>
-void add_facets(const Facets& facets, int row, double share, Spread& lobe) {
-  const double z = directions().z[row];
-  const Vec3d wo{std::sqrt(1 - z * z), 0, z};
-  const double shadow = facets.shadow(wo);
-  constexpr int kFacets = 20000;
-  std::vector<std::pair<double, double>> single;  // cosine and masking
-  double sum = 0;
-  for (int k = 0; k < kFacets; ++k) {
-    const Vec3d h = facets.sample_visible(wo, std::fmod((k + 0.5) * std::numbers::phi, 1.0),
-                                          (k + 0.5) / kFacets);
-    const double c = 2 * dot(wo, h) * h.z - z;
-    if (!(c > 0)) continue;
-    const Vec3d wi = h * (2 * dot(wo, h)) - wo;
-    single.emplace_back(std::min(c, 1.0),
-                        (z + shadow) * c / (z * c + shadow * c + z * facets.shadow(wi)));
-    sum += single.back().second;
-  }
-  for (const auto& [c, masked] : single) lobe.add(row, c, masked * share / sum);
-}
-
 /// With what single bounces lose, as materials/energy.h gives it back: as `losses` has it.
 template <class Facets>
 Spread facet_lobe(const Facets& facets, const std::vector<float>& losses) {
   const FacetTables tables{losses.data(), nullptr, nullptr, nullptr};
   const FacetLoss<double> loss{&tables, facets.ax, facets.ay};
   const auto& [z, weight] = directions();
+  const std::vector<Facet> all = all_facets(facets, 17711, 10946);
   Spread lobe;
   Values lost(kNodes);
   double mean = 0;
   for (int o = 0; o < kNodes; ++o) {
-    lost[o] = loss.at({std::sqrt(1 - z[o] * z[o]), 0, z[o]});
+    const Vec3d wo{std::sqrt(1 - z[o] * z[o]), 0, z[o]};
+    lost[o] = loss.at(wo);
     mean += lost[o] * weight[o];
-    add_facets(facets, o, 1 - lost[o], lobe);
+    double sum = 0;
+    single_bounces(facets, all, wo, [&](Vec3d wi, double share) {
+      lobe.add(o, wi.z, share);
+      sum += share;
+    });
+    for (Values& line : lobe.to) line[o] *= (1 - lost[o]) / sum;
   }
   for (int i = 0; i < kNodes && mean > 0; ++i)
     for (int o = 0; o < kNodes; ++o) lobe.to[i][o] += lost[o] * lost[i] * weight[i] / mean;

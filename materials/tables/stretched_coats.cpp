@@ -78,7 +78,7 @@ class Lobe {
  public:
   Lobe(double wide, double narrow)
       : facets_{{wide, narrow}}, directions_(wide / narrow), rows_(kNodes, Values(kNodes)) {
-    const std::vector<Facet> all = all_facets();
+    const std::vector<Facet> all = all_facets(facets_, 10946, 6765);
     for (int o = 0; o < kNodes; ++o) add(o, all);
     give_back();
   }
@@ -103,41 +103,12 @@ class Lobe {
     return sum;
   }
 
-  /// A facet's normal, not of unit length, and the share of the surface below such ones.
-  struct Facet {
-    double x, y, share;
-  };
-
-  /// Over slopes as polar coordinates, by a lattice of Fibonacci's. Slopes crowd at both ends so
-  /// much that what is summed falls to 0 there, also what grows as a slope of GGX.
-  std::vector<Facet> all_facets() const {
-    constexpr int kFacets = 10946, kStep = 6765;  // Fibonacci's numbers
-    std::vector<Facet> all;
-    for (int k = 0; k < kFacets; ++k) {
-      const double t = (k + 0.5) / kFacets, u = t * t * t * (10 - t * (15 - 6 * t));
-      const double phi = 2 * kPi<double> * (k * kStep % kFacets) / kFacets;
-      const double r = slope(facets_, u), weight = 30 * (t * (1 - t)) * (t * (1 - t)) / kFacets;
-      all.push_back({r * facets_.ax * std::cos(phi), r * facets_.ay * std::sin(phi), weight});
-    }
-    return all;
-  }
-
-  /// A row of single bounces: of a facet that `wo` sees a share of the area, masked.
+  /// A row of single bounces.
   void add(int row, const std::vector<Facet>& all) {
-    const Vec3d wo = directions_.at(row);
-    const double z = wo.z, shadow = facets_.shadow(wo);
-    double seen = 0;
-    for (const Facet& f : all) {
-      const double facing = z + wo.x * f.x + wo.y * f.y;
-      if (!(facing > 0)) continue;
-      const double area = facing * f.share, twice = 2 * facing / (1 + f.x * f.x + f.y * f.y);
-      seen += area;
-      const double c = std::min(twice - z, 1.0);
-      if (!(c > 0)) continue;
-      const Vec3d wi{twice * f.x - wo.x, twice * f.y - wo.y, c};
-      const double share = area * (z + shadow) * c / (z * c + shadow * c + z * facets_.shadow(wi));
-      directions_.spread(wi, [&](int i, double part) { rows_[row][i] += share * part; });
-    }
+    const double seen =
+        single_bounces(facets_, all, directions_.at(row), [&](Vec3d wi, double share) {
+          directions_.spread(wi, [&](int i, double part) { rows_[row][i] += share * part; });
+        });
     for (double& x : rows_[row]) x /= seen;
   }
 
