@@ -19,15 +19,25 @@ namespace mms::materials::tables {
 
 inline constexpr double kLeast = 1e-7;  ///< an axis' first direction and width, instead of 0
 
-/// cos theta from its place along an axis that maps a cosine and a sine, by halving.
-template <class Axis>
-double cosine(double place, const Axis& axis) {
+/// Where in [0, 1] `f`, which rises, is `value`: by halving.
+template <class F>
+double inverse(const F& f, double value) {
   double lo = 0, hi = 1;
   for (int i = 0; i < 60; ++i) {
-    const double angle = (lo + hi) * kPi<double> / 4;
-    (axis(std::sin(angle), std::cos(angle)) < place ? lo : hi) = (lo + hi) / 2;
+    const double middle = (lo + hi) / 2;
+    (f(middle) < value ? lo : hi) = middle;
   }
-  return std::sin(lo * kPi<double> / 2);
+  return lo;
+}
+
+/// cos theta from its place along an axis that maps a cosine and a sine.
+template <class Axis>
+double cosine(double place, const Axis& axis) {
+  const auto at = [&](double x) {
+    const double angle = x * kPi<double> / 2;
+    return axis(std::sin(angle), std::cos(angle));
+  };
+  return std::sin(inverse(at, place) * kPi<double> / 2);
 }
 
 /// The relative index of which axes::index is `x`; `rising`: above 1.

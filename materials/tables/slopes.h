@@ -10,6 +10,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/exponential.h"
 #include "base/quadrature.h"
 #include "materials/facets.h"
 #include "materials/fresnel.h"
@@ -19,52 +20,86 @@ namespace mms::materials::tables {
 /// How slopes t of a distribution of width 1 are laid out over m in (-1, 1), so that their density
 /// times the slope's derivative is nearly flat; `density` is of t^2, `spread` how much wider the
 /// slopes across are at a slope t along. `kPoints` keep what stretched facets lose within 2e-4, see
-/// Cuts.
+/// Cuts. But for `place`, all only select, without libm: loops over them are computed side by side.
 struct GgxSlopes {
   static constexpr int kPoints = 14;
   static double place(double t) { return std::atan(t) * (2 / kPi<double>); }
-  static double slope(double m) { return std::tan(m * kPi<double> / 2); }
-  static double derivative(double, double t) { return kPi<double> / 2 * (1 + t * t); }
-  static double density(double t2) { return 1 / ((1 + t2) * (1 + t2)); }
-  static double spread(double t) { return std::sqrt(1 + t * t); }
+  /// tan(m pi / 2). Polynomial, of its product with 1 - m^2: relative error 3e-11.
+  MMS_INLINE static double slope(double m) {
+    const double a = std::abs(m), b = a > 0.5 ? 1 - a : a, b2 = b * b;
+    const double p =
+        b * core::polynomial(b2, 0x1.921fb544176bfp+0, -0x1.1d8f9b00115efp-2, -0x1.1403090b67d0ep-6,
+                             -0x1.ae770d29fddccp-10, -0x1.8b53360ac9a8fp-13);
+    return std::copysign((a > 0.5 ? 1 - b2 : p) / (a > 0.5 ? p : 1 - b2), m);
+  }
+  MMS_INLINE static double derivative(double, double t) { return kPi<double> / 2 * (1 + t * t); }
+  MMS_INLINE static double density(double t2) { return 1 / ((1 + t2) * (1 + t2)); }
+  MMS_INLINE static double spread(double t) { return std::sqrt(1 + t * t); }
+  MMS_INLINE static double shadow(const Ggx<double>& facets, Vec3d w) { return facets.shadow(w); }
 };
 struct BeckmannSlopes {
   static constexpr int kPoints = 16;
   static double place(double t) { return std::tanh(t); }
-  static double slope(double m) { return std::atanh(m); }
-  static double derivative(double m, double) { return 1 / ((1 - m) * (1 + m)); }
-  static double density(double t2) { return std::exp(-t2); }
-  static double spread(double) { return 1; }
+  MMS_INLINE static double slope(double m) { return core::log_in_range((1 + m) / (1 - m)) / 2; }
+  MMS_INLINE static double derivative(double m, double) { return 1 / ((1 - m) * (1 + m)); }
+  MMS_INLINE static double density(double t2) { return exp_minus(t2); }
+  MMS_INLINE static double spread(double) { return 1; }
+  /// Beckmann::shadow. Polynomial, of exp(a^2) s(a) / v^2 over v: relative error 7e-9.
+  MMS_INLINE static double shadow(const Beckmann<double>& facets, Vec3d w) {
+    const double t = facets.tangent(w), z = std::abs(w.z), far = z > 6 * t;
+    const double a = far ? 6.0 : z / t, v = 1 / (1 + 0.4 * a);
+    const double s =
+        exp_minus(a * a) * (v * v) *
+        core::polynomial(v, 0x1.723a129e424c7p-5, 0x1.6c31ebbf89706p-4, 0x1.1b1747f2eedb7p-3,
+                         0x1.de7c323e57093p-5, 0x1.a340836f5465cp-2, -0x1.37f7d463250b3p-1,
+                         0x1.1aa209222a762p+0, -0x1.102f56c506a31p+0, 0x1.e5d2c30e64c19p-2,
+                         -0x1.4f8993380809dp-4);
+    return far ? 0.0 : t * s / 2;
+  }
+
+ private:
+  MMS_INLINE static double exp_minus(double x) {
+    return core::value_of(core::exponential_in_range(x < 200 ? -x : -200.0));
+  }
 };
 inline GgxSlopes slopes_of(const Ggx<double>&) { return {}; }
 inline BeckmannSlopes slopes_of(const Beckmann<double>&) { return {}; }
 
-/// Gauss's rules of 1 to `kMost` points, for numbers that are known late.
+/// Gauss's rules of 1 to `kMost` points over [0, 1], for numbers that are known late, with points
+/// that crowd at both ends.
 class Rules {
  public:
   static constexpr int kMost = 48;
 
-  /// Integral of `f(x)` over [0, 1] by `n` points.
-  template <class F>
-  static auto integrate(const F& f, int n) {
+  /// Calls visit(x, weight) for the points of the rule of `n`.
+  template <class Visit>
+  static void visit(int n, const Visit& visit) {
     static const Rules rules;
     const Rule& rule = rules.of_[std::min(n, kMost) - 1];
-    decltype(f(0.0)) sum{};
-    for (int i = 0; i < rule.n; ++i) sum += f(rule.x[i]) * rule.w[i];
-    return sum;
+    for (int i = 0; i < rule.n; ++i) visit(rule.x[i], rule.w[i]);
   }
 
  private:
   struct Rule {
     int n;
-    const double *x, *w;
+    std::array<double, kMost> x, w;
   };
   std::array<Rule, kMost> of_;
 
   Rules() { fill(std::make_integer_sequence<int, kMost>()); }
   template <int... N>
   void fill(std::integer_sequence<int, N...>) {
-    of_ = {Rule{N + 1, gauss<N + 1>().x.data(), gauss<N + 1>().w.data()}...};
+    of_ = {crowded(gauss<N + 1>())...};
+  }
+  template <int N>
+  static Rule crowded(const GaussRule<N>& gauss) {
+    Rule rule{N, {}, {}};
+    for (int i = 0; i < N; ++i) {
+      const double s = gauss.x[i];
+      rule.x[i] = s * s * (3 - 2 * s);
+      rule.w[i] = gauss.w[i] * (6 * s * (1 - s));
+    }
+    return rule;
   }
 };
 
@@ -78,32 +113,29 @@ class Cuts {
   }
   bool empty() const { return size_ == 0; }
 
-  /// Sum of f over the parts from the first place to 1, with points that crowd at both ends of
-  /// each, where f may be as a square root: `points` in a part as long as all, and fewer the
-  /// shorter.
-  template <class F>
-  auto integrate(const F& f, int points) {
+  /// Calls visit(place, weight) for points of the parts from the first place to 1, that crowd at
+  /// both ends of each, where what is integrated may be as a square root: `points` in a part as
+  /// long as all, and fewer the shorter.
+  template <class Visit>
+  void visit(int points, const Visit& visit) {
     std::sort(at_.begin(), at_.begin() + size_);
-    decltype(f(0.0)) sum{};
     double a = from_;
     for (int i = 0; i <= size_; ++i) {
-      const double b = i < size_ ? at_[i] : 1;
-      if (b - a > kLeast)
-        sum +=
-            Rules::integrate(
-                [&](double s) { return f(a + (b - a) * s * s * (3 - 2 * s)) * (6 * s * (1 - s)); },
-                kFew + int(points * std::sqrt((b - a) / 2))) *
-            (b - a);
+      const double b = i < size_ ? at_[i] : 1, length = b - a;
+      if (length > kLeast)
+        Rules::visit(kFew + int(points * std::sqrt(length / 2)),
+                     [&](double x, double weight) { visit(a + length * x, length * weight); });
       a = b;
     }
-    return sum;
   }
+
+  static constexpr int kMost = 20;  ///< of them, at most
 
  private:
   static constexpr double kLeast = 1e-9;
   static constexpr int kFew = 4;
   double from_;
-  std::array<double, 20> at_;
+  std::array<double, kMost> at_;
   int size_ = 0;
 };
 
@@ -113,6 +145,28 @@ class Cuts {
 struct Way {
   double share = 0, facet = 0, taken = 1, cosine = 0;
 };
+
+/// What facets of a row send both ways, side by side, so that it is computed so: by their `place`
+/// along the row; each counts with `weight`.
+struct Bounces {
+  static constexpr int kTogether = 4, kMost = (Cuts::kMost + 1) * Rules::kMost;
+  using Values = std::array<double, kMost>;
+  struct Ways {
+    Values share, facet, taken, cosine;
+    Way at(int i) const { return {share[i], facet[i], taken[i], cosine[i]}; }
+  };
+
+  Values place, weight;
+  Ways up, down;
+  int size = 0;
+
+  void add(double at, double w) { place[size] = at, weight[size++] = w; }
+  /// To a multiple of kTogether, with what does not count.
+  void fill_up() {
+    while (size % kTogether) add(0, 0);
+  }
+};
+static_assert(Bounces::kMost % Bounces::kTogether == 0);
 
 /// Some numbers that are integrated at once.
 template <int N>
@@ -141,109 +195,165 @@ void visit_roots(double a, double b, double c, const Visit& visit) {
   visit(-c / q);
 }
 
-/// Mean over the facets that `wo` sees, each an interface of relative index `eta`, of `value(up,
-/// down)`, a number or a sum of some. A facet's normal is (x, y, 1), not of unit length, with x
-/// towards `wo` and y across; parts end where reflection or refraction leaves the surface grazing,
-/// or is just total, all of which are conics in (x, y), and where those meet the line that the
-/// slopes of stretched facets crowd about. What leaves across their wider axis is hidden least, and
-/// much more beside that: rows are cut there too. `points`: see Cuts.
-template <class Facets, class Value>
-auto interface_mean(const Facets& facets, double eta, Vec3d wo, int points, const Value& value) {
-  using Result = decltype(value(Way(), Way()));
-  using Slopes = decltype(slopes_of(facets));
-  const double z = wo.z, s = std::hypot(wo.x, wo.y), s2 = s * s;
-  const double cx = s > 0 ? wo.x / s : 1, cy = s > 0 ? wo.y / s : 0;
-  const double ax = facets.ax, ay = facets.ay, along = std::hypot(ax * cx, ay * cy);
-  const double across = ax * ay / along;  // at one slope along, about a middle of
-  const double shear = cx * cy * (ay - ax) * (ay + ax) / (along * along);  // times that slope
-  const bool falls = eta < 1, round = ax == ay;
-  const double wide_x = ax > ay ? cx : cy, wide_y = ax > ay ? -cy : cx;  // the wider axis
-  const double e = (1 - eta) * (1 + eta);  // where the index falls, cos^2 of the critical angle
-  const double hidden_wo = facets.shadow(wo);
-  const auto hidden = [&](double x, double y, double wz) {  // G2 / G1 away from 1
-    const double g = z * facets.shadow(Vec3d{x * cx - y * cy, x * cy + y * cx, wz});
-    const double c = std::abs(wz);
-    return g / (z * c + hidden_wo * c + g);
-  };
-  const auto both_ways = [&](double x, double y) {
-    const double facing = z + s * x, length2 = 1 + x * x + y * y, inverse = 1 / std::sqrt(length2);
-    const double c = std::min(1.0, facing * inverse), twice = 2 * facing / length2;
-    const FresnelSplit<double> f = fresnel_split(c, eta);
-    Way up{f.reflected, c}, down{f.transmitted};
-    if (twice > z) {
-      up.taken = hidden(twice * x - s, twice * y, twice - z);
-      up.cosine = twice - z;
+/// The facets that `wo` sees, each an interface of relative index `eta`. A facet's normal is (x, y,
+/// 1), not of unit length, with x towards `wo` and y across, in rows of one x.
+template <class Facets>
+class SeenFacets {
+ public:
+  SeenFacets(const Facets& facets, double eta, Vec3d wo)
+      : facets_(facets), eta_(eta), inverse_eta_(1 / eta), z_(wo.z), s_(std::hypot(wo.x, wo.y)) {
+    if (s_ > 0) cx_ = wo.x / s_, cy_ = wo.y / s_;
+    const double ax = facets.ax, ay = facets.ay;
+    along_ = std::hypot(ax * cx_, ay * cy_);
+    across_ = ax * ay / along_;
+    shear_ = cx_ * cy_ * (ay - ax) * (ay + ax) / (along_ * along_);
+    round_ = ax == ay;
+    e_ = (1 - eta) * (1 + eta);
+    shadow_ = facets.shadow(wo);
+  }
+
+  /// Mean of `value(up, down)`, a number or a sum of some. `points`: see Cuts.
+  template <class Value>
+  auto mean(int points, const Value& value) const {
+    decltype(value(Way(), Way())) sum{};
+    Bounces row;
+    cuts_along().visit(points, [&](double m, double weight) {
+      const double t = Slopes::slope(m), x = along_ * t, facing = z_ + s_ * x;
+      if (!(facing > 0)) return;
+      row.size = 0;
+      cuts_across(x).visit(points / 2,  // rows are smoother than their sum
+                           [&](double place, double w) { row.add(place, w); });
+      row.fill_up();
+      bounce(*this, x, row);
+      const double scale = weight * Slopes::derivative(m, t) * facing * across_ * Slopes::spread(t);
+      for (int i = 0; i < row.size; ++i)
+        if (row.weight[i] > 1e-30)
+          sum += value(row.up.at(i), row.down.at(i)) * (scale * row.weight[i]);
+    });
+    return sum *
+           ((round_ ? 2 : 1) * along_ / (kPi<double> * facets_.ax * facets_.ay * (z_ + shadow_)));
+  }
+
+ private:
+  using Slopes = decltype(slopes_of(std::declval<Facets>()));
+
+  /// Where parts of the rows' sum end: where reflection or refraction leaves the surface grazing,
+  /// or is just total, all of which are conics in (x, y), and where those meet the line that the
+  /// slopes of stretched facets crowd about.
+  Cuts cuts_along() const {
+    const double away = s_ > 0 ? Slopes::place(-z_ / s_ / along_) : -1;  // where facets turn away
+    const double s2 = s_ * s_;
+    Cuts cuts(away);
+    if (away < -0.5) cuts.add(0);
+    const auto edge = [&](double x) { cuts.add(Slopes::place(x / along_)); };
+    if (falls() && s_ > eta_) edge((s_ - eta_) * (s_ + eta_) / (z_ * s_));
+    for (const double k : {0.0, shear_}) {  // along y = k x
+      const double n = 1 + k * k;
+      visit_roots(z_ * n, s_, z_, edge);
+      if (falls()) {
+        visit_roots(z_ * z_ * n, z_ * s_, (eta_ - s_) * (eta_ + s_), [&](double x) {
+          if (z_ * s_ * x <= s2 - eta_ * eta_) edge(x);
+        });
+        // Where light that meets facets along `wo` is just totally reflected.
+        visit_roots(s2 - e_ * n, -z_ * s_, e_ - z_ * z_, [&](double x) {
+          if (z_ + s_ * x > 0) edge(x);
+        });
+      }
+      if (round_) break;
     }
-    if (!(f.transmitted > 0)) return value(up, down);
-    const double g = std::sqrt(std::max(0.0, refraction_g2(c, eta)));
-    const double bend = e / (c + g) * inverse, fall = (bend - z) / eta;
-    down.facet = g / eta;
-    if (fall < 0) {
-      down.taken = hidden((bend * x - s) / eta, bend * y / eta, fall);
-      down.cosine = -fall;
-    }
-    return value(up, down);
-  };
-  const auto row = [&](double x) {
-    const double t = x / along, width = across * Slopes::spread(t), middle = shear * x;
-    const double facing = z + s * x;
-    Cuts cuts(round ? 0 : -1);  // round facets are alike on both sides
+    return cuts;
+  }
+
+  /// The same of the row at `x`. What leaves across the wider axis is hidden least, and much more
+  /// beside that: rows are cut there too.
+  Cuts cuts_across(double x) const {
+    const double middle = shear_ * x, width = across_ * Slopes::spread(x / along_);
+    const double facing = z_ + s_ * x;
+    Cuts cuts(round_ ? 0 : -1);  // round facets are alike on both sides
     const auto cut = [&](double y) { cuts.add(Slopes::place((y - middle) / width)); };
     const auto edge = [&](double y2) {
       if (!(y2 > 0)) return;
       const double y = std::sqrt(y2);
       cut(y);
-      if (!round) cut(-y);
+      if (!round_) cut(-y);
     };
-    const double d = z * x - s;
-    edge((1 - d) * (1 + d) / (z * z));
-    if (falls) {
-      if (z * s * x <= s2 - eta * eta) edge((eta - d) * (eta + d) / (z * z));
-      edge(facing * facing / e - 1 - x * x);
+    const double d = z_ * x - s_;
+    edge((1 - d) * (1 + d) / (z_ * z_));
+    if (falls()) {
+      if (z_ * s_ * x <= s_ * s_ - eta_ * eta_) edge((eta_ - d) * (eta_ + d) / (z_ * z_));
+      edge(facing * facing / e_ - 1 - x * x);
     }
-    if (!round) {
-      if (cuts.empty() || across > along) cuts.add(0);
-      // Normals of the component p = px + y py along that axis, of which wo has `o`.
-      const double length2 = 1 + x * x, o = s * wide_x, px = x * wide_x, py = wide_y;
+    if (!round_) {
+      if (cuts.empty() || across_ > along_) cuts.add(0);
+      // Normals of the component p = px + y py along the wider axis, of which wo has `o`.
+      const bool turned = facets_.ax <= facets_.ay;
+      const double wide_x = turned ? cy_ : cx_, wide_y = turned ? cx_ : -cy_;
+      const double length2 = 1 + x * x, o = s_ * wide_x, px = x * wide_x, py = wide_y;
       visit_roots(o, facing * py, 2 * facing * px - o * length2, cut);
-      visit_roots(o * o + e * py * py, (o * facing - e * px) * py,
-                  (2 * o * facing - e * px) * px - o * o * length2, [&](double y) {
+      visit_roots(o * o + e_ * py * py, (o * facing - e_ * px) * py,
+                  (2 * o * facing - e_ * px) * px - o * o * length2, [&](double y) {
                     if (facing >= o * (length2 + y * y) / (px + y * py)) cut(y);
                   });
     }
-    const auto at = [&](double m) {
-      const double u = Slopes::slope(m), v = u * width / across;
-      const double weight = Slopes::derivative(m, u) * Slopes::density(t * t + v * v);
-      return weight > 1e-30 ? both_ways(x, middle + width * u) * weight : Result{};
-    };
-    return cuts.integrate(at, points / 2) *  // rows are smoother than their sum
-           (facing * width);
-  };
-  const double away = s > 0 ? Slopes::place(-z / s / along) : -1;  // where facets turn away
-  Cuts cuts(away);
-  if (away < -0.5) cuts.add(0);
-  const auto edge = [&](double x) { cuts.add(Slopes::place(x / along)); };
-  if (falls && s > eta) edge((s - eta) * (s + eta) / (z * s));
-  for (const double k : {0.0, shear}) {  // along y = k x
-    const double n = 1 + k * k;
-    visit_roots(z * n, s, z, edge);
-    if (falls) {
-      visit_roots(z * z * n, z * s, (eta - s) * (eta + s), [&](double x) {
-        if (z * s * x <= s2 - eta * eta) edge(x);
-      });
-      // Where light that meets facets along `wo` is just totally reflected.
-      visit_roots(s2 - e * n, -z * s, e - z * z, [&](double x) {
-        if (z + s * x > 0) edge(x);
-      });
-    }
-    if (round) break;
+    return cuts;
   }
-  const auto along_slopes = [&](double m) {
-    const double t = Slopes::slope(m), x = along * t;
-    return z + s * x > 0 ? row(x) * Slopes::derivative(m, t) : Result{};
-  };
-  return cuts.integrate(along_slopes, points) *
-         ((round ? 2 : 1) * along / (kPi<double> * ax * ay * (z + hidden_wo)));
+
+  /// The facets of the row at `x`. A copy of what is seen, by which the compiler knows that nothing
+  /// of it changes.
+  [[gnu::noinline]] static void bounce(const SeenFacets seen, const double x, Bounces& row) {
+    const double t = x / seen.along_, spread = Slopes::spread(t);
+    const double middle = seen.shear_ * x, facing = seen.z_ + seen.s_ * x;
+    const int size = row.size / Bounces::kTogether * Bounces::kTogether;
+    for (int i = 0; i < size; ++i) {
+      const double m = row.place[i], u = Slopes::slope(m), v = u * spread;
+      row.weight[i] *= Slopes::derivative(m, u) * Slopes::density(t * t + v * v);
+      seen.bounce(x, middle + seen.across_ * v, facing, i, row);
+    }
+  }
+  MMS_INLINE void bounce(double x, double y, double facing, int i, Bounces& row) const {
+    const double length2 = 1 + x * x + y * y, inverse = 1 / std::sqrt(length2);
+    const double cosine = facing * inverse, c = cosine < 1 ? cosine : 1.0;
+    const FresnelSplit<double> f = fresnel_split(c, eta_);
+    const double twice = 2 * cosine * inverse, rise = twice - z_;
+    const bool rises = rise > 0;
+    const double out = rises ? rise : 0.0, taken = hidden(twice * x - s_, twice * y, out);
+    row.up.share[i] = f.reflected;
+    row.up.facet[i] = c;
+    row.up.taken[i] = rises ? taken : 1.0;
+    row.up.cosine[i] = out;
+    const double g2 = refraction_g2(c, eta_), g = std::sqrt(g2 > 0 ? g2 : 0.0);
+    const double bend = e_ / (c + g) * inverse, fall = (z_ - bend) * inverse_eta_;
+    const bool falls = fall > 0;  // in total reflection, of which the share is 0, no matter
+    const double through = falls ? fall : 0.0;
+    const double kept = hidden((bend * x - s_) * inverse_eta_, bend * y * inverse_eta_, through);
+    row.down.share[i] = f.transmitted;
+    row.down.facet[i] = g * inverse_eta_;
+    row.down.taken[i] = falls ? kept : 1.0;
+    row.down.cosine[i] = through;
+  }
+
+  /// G2 / G1 away from 1, of light that leaves along (x, y) at the |cosine| `c`.
+  MMS_INLINE double hidden(double x, double y, double c) const {
+    const double g = z_ * Slopes::shadow(facets_, {x * cx_ - y * cy_, x * cy_ + y * cx_, c});
+    return g / (z_ * c + shadow_ * c + g);
+  }
+
+  bool falls() const { return eta_ < 1; }
+
+  Facets facets_;
+  double eta_, inverse_eta_;
+  double z_, s_, cx_ = 1, cy_ = 0;  ///< of `wo`
+  double along_, across_;           ///< widths: across at one slope along, about a middle of
+  double shear_;                    ///< times that slope
+  bool round_;
+  double e_;       ///< where the index falls, cos^2 of the critical angle
+  double shadow_;  ///< of `wo`
+};
+
+/// Mean over the facets that `wo` sees of `value(up, down)`, a number or a sum of some.
+template <class Facets, class Value>
+auto interface_mean(const Facets& facets, double eta, Vec3d wo, int points, const Value& value) {
+  return SeenFacets<Facets>(facets, eta, wo).mean(points, value);
 }
 
 /// What one bounce loses: what other facets take.

@@ -80,6 +80,33 @@ TEST_CASE("what one bounce off an interface of facets loses") {
   SUBCASE("beckmann") { check<Beckmann>(); }
 }
 
+TEST_CASE("slopes and masking without libm are those of libm") {
+  const auto relative = [](double value, double exact) { return std::abs(value / exact - 1); };
+  double ggx = 0, beckmann = 0, shadow = 0;
+  for (int k = 1; k < 4000; ++k)
+    for (const double m : {k / 4000.0, 1 - std::pow(10, -k / 400.0)}) {
+      // Next to 1, tan is of the angle that is left: m pi / 2 would round it away.
+      const double slope = 1 / std::tan((1 - m) * kPi<double> / 2);
+      ggx = std::max(ggx, relative(tables::GgxSlopes::slope(m), slope));
+      CHECK(tables::GgxSlopes::slope(-m) == -tables::GgxSlopes::slope(m));
+      beckmann = std::max(beckmann, std::abs(tables::BeckmannSlopes::slope(m) - std::atanh(m)));
+    }
+  const Beckmann<double> facets{{0.5, 0.05}};
+  for (int k = 1; k < 4000; ++k) {
+    const double a = 6.0 * k / 4000;
+    const Vec3d w{2, 0, a};  // of any length; stretched, its tangent is 1
+    // In long double: what is left of both parts of a double is a few digits.
+    const long double b = a,
+                      left = std::exp(-b * b) / std::sqrt(kPi<long double>) - b * std::erfc(b);
+    shadow =
+        std::max(shadow, relative(tables::BeckmannSlopes::shadow(facets, w), double(left / 2)));
+  }
+  CHECK(ggx < 5e-11);
+  CHECK(beckmann < 1e-14);
+  CHECK(shadow < 2e-8);
+  MESSAGE("worst ", ggx, " ", beckmann, " ", shadow);
+}
+
 TEST_CASE("tables of stretched facets hold that where their kink crosses the critical angle") {
   double worst = 0;
   for (const double eta : {0.685, 0.698, 0.702, 0.7071, 0.712, 0.742})
