@@ -59,6 +59,7 @@ template <class R, class Face>
 struct InterfaceSeen {
   std::array<typename Face::Law, kWavelengths> law;
   R shadow = 0;                       ///< |w.z| Lambda(w)
+  BounceSampling<R> bounces = {};     ///< how directions of further ones are drawn
   Spectrum<R> lost;                   ///< by the first bounce
   Spectrum<R> transmit;               ///< share of that which goes to the far side
   Spectrum<R> mean_here, mean_there;  ///< of what the two sides lose over their hemispheres
@@ -139,6 +140,7 @@ struct RoughInterface {
   Seen seen(Vec3<R> wo) const {
     Seen s;
     s.shadow = facets.shadow(wo);
+    s.bounces = BounceSampling<R>(facets.ax * facets.ay);
     typename Face::Loss here, mean_here, mean_there;
     typename Face::Shared shared;
     for (int j = 0; j < kWavelengths; ++j) {
@@ -161,7 +163,7 @@ struct RoughInterface {
     const bool reflects = same_side(wo, wi);
     Lobes<R> out = reflects ? evaluate_reflection(wo, wi, seen.shadow)
                             : evaluate_transmission(wo, wi, seen.shadow, mode);
-    const R pdf = BounceSampling<R>{facets.ax * facets.ay}.pdf(std::abs(wi.z));
+    const R pdf = seen.bounces.pdf(std::abs(wi.z));
     const Spectrum<R>& mean = reflects ? seen.mean_here : seen.mean_there;
     R eta = 1;
     typename Face::Loss spread;  // by further bounces along wi
@@ -189,7 +191,7 @@ struct RoughInterface {
     if (u_lobe < lost) {
       const Choice c = choose(0, {1 - seen.transmit[0], seen.transmit[0]});
       if (!(c.reflect + c.transmit > 0)) return false;
-      wi = BounceSampling<R>{facets.ax * facets.ay}.sample(u1, u2);
+      wi = seen.bounces.sample(u1, u2);
       if (!(wi.z > 0)) return false;
       const bool down = u_lobe >= c.reflect * lost;
       wi.z = down == (wo.z > 0) ? -wi.z : wi.z;

@@ -501,14 +501,15 @@ inline R transmitted_share(R mean_here, R mean_there, R eta) {
 /// The density over projected solid angle is proportional to 1 / (z^2 + alpha^2).
 template <class R>
 struct BounceSampling {
-  R alpha2;
+  R alpha2 = 1, log = 0;  ///< log(1 + 1 / alpha2)
 
-  R pdf(R z) const {
-    return z / (std::numbers::pi_v<R> * std::log1p(1 / alpha2) * (z * z + alpha2));
-  }
+  BounceSampling() = default;
+  explicit BounceSampling(R area) : alpha2(area), log(std::log1p(1 / area)) {}
+
+  R pdf(R z) const { return z / (std::numbers::pi_v<R> * log * (z * z + alpha2)); }
 
   Vec3<R> sample(R u1, R u2) const {
-    const R z2 = std::min(R(1), alpha2 * std::expm1(u1 * std::log1p(1 / alpha2)));
+    const R z2 = std::min(R(1), alpha2 * std::expm1(u1 * log));
     const R s = std::sqrt(1 - z2), phi = 2 * std::numbers::pi_v<R> * u2;
     return {s * std::cos(phi), s * std::sin(phi), std::sqrt(z2)};
   }

@@ -36,9 +36,10 @@ struct HalfVector {
 /// Facets that are mirrors along one direction: what is found once for all that it meets.
 template <class R>
 struct FacetsSeen {
-  R shadow = 0;              ///< |w.z| Lambda(w)
-  R loss = 0, mean = 0;      ///< to further bounces: along the direction, and over the hemisphere
-  Spectrum<R> further = {};  ///< F of these bounces together
+  R shadow = 0;          ///< |w.z| Lambda(w)
+  R loss = 0, mean = 0;  ///< to further bounces: along the direction, and over the hemisphere
+  BounceSampling<R> bounces = {};  ///< how directions of these are drawn
+  Spectrum<R> further = {};        ///< F of these bounces together
 };
 
 /// Reflection by facets, alike for every wavelength but for Fresnel's factor.
@@ -51,7 +52,6 @@ struct RoughReflection {
 
   bool specular() const { return facets.specular(); }
   FacetLoss<R> loss() const { return {&facets.tables(), facets.ax, facets.ay}; }
-  BounceSampling<R> bounces() const { return {facets.ax * facets.ay}; }
   CoatedLobe<R> coated(Vec3<R> w) const {
     return CoatedLobe<R>::facets(facets.coated(), facets.ax, facets.ay, w);
   }
@@ -68,9 +68,9 @@ struct RoughReflection {
   FacetsSeen<R> seen(Vec3<R> wo) const {
     const FacetLoss<R> l = loss();
     // No distribution loses less: where facets are all but flat, the spline may swing below it.
-    const R mean = std::max(l.mean(), R(0.02) * mean_unit(facets.ax * facets.ay));
+    const R area = facets.ax * facets.ay, mean = std::max(l.mean(), R(0.02) * mean_unit(area));
     const Vec3<R> up = to_upper(wo, wo);
-    return {facets.shadow(up), l.at(up), mean};
+    return {facets.shadow(up), l.at(up), mean, BounceSampling<R>(area)};
   }
 
   Value evaluate(Vec3<R> wo, Vec3<R> wi, const FacetsSeen<R>& seen) const {
@@ -79,7 +79,7 @@ struct RoughReflection {
     wi = to_upper(wi, wo);
     wo = to_upper(wo, wo);
     v.multiple = seen.loss * loss().at(wi) / (kPi<R> * seen.mean);
-    v.pdf = seen.loss * bounces().pdf(wi.z);
+    v.pdf = seen.loss * seen.bounces.pdf(wi.z);
     const HalfVector<R> half(wo, wi);
     const Vec3<R> h = half.h;
     if (!(h.z > 0)) return v;
@@ -93,7 +93,7 @@ struct RoughReflection {
   bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const FacetsSeen<R>& seen, Vec3<R>& wi) const {
     const Vec3<R> up = to_upper(wo, wo);
     if (u_lobe < seen.loss) {
-      wi = bounces().sample(u1, u2);
+      wi = seen.bounces.sample(u1, u2);
     } else {
       const Vec3<R> h = facets.sample_visible(up, u1, u2);
       wi = normalize(h * (2 * dot(up, h)) - up);
