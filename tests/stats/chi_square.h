@@ -147,7 +147,10 @@ struct Integral {
 template <class Enough, class F>
 Integral integrate_peaked(const Rectangle& cell, double tolerance, const Enough& enough, F&& f) {
   const auto crowd = [](double s) { return s * s * s * s * (35 + s * (-84 + s * (70 - s * 20))); };
-  const auto slope = [](double s) { return 140 * std::pow(s * (1 - s), 3); };
+  const auto slope = [](double s) {
+    const double a = s * (1 - s);
+    return 140 * a * a * a;
+  };
   const double w = cell.x1 - cell.x0, h = cell.y1 - cell.y0;
   const auto cut = [&](int n) {
     double sum = 0;
