@@ -61,7 +61,12 @@ MMS_INLINE Exponential exponential_in_range(double x) {
                 r),
           bits<double>(power)};
 }
+/// Arguments beyond 200 are taken for 200: floats end before.
+MMS_INLINE Exponential exponential(double x) {
+  return exponential_in_range(x > 200 ? 200 : x < -200 ? -200 : x);
+}
 MMS_INLINE double value_of(Exponential e) { return fused(e.scale, e.small, e.scale); }
+MMS_INLINE double exp_core(double x) { return value_of(exponential(x)); }
 
 /// Natural logarithm of a positive normal double.
 MMS_INLINE double log_in_range(double x) {

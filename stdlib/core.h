@@ -22,9 +22,9 @@
 
 namespace mms::stdlib::MMS_ISA {
 
-using core::bits, core::Exponential, core::exponential_in_range, core::fused, core::kLn2High,
-    core::kLn2Low, core::kLog2E, core::kRound64, core::log_in_range, core::polynomial,
-    core::value_of;
+using core::bits, core::exp_core, core::Exponential, core::exponential, core::exponential_in_range,
+    core::fused, core::kLn2High, core::kLn2Low, core::kLog2E, core::kRound64, core::log_in_range,
+    core::polynomial, core::value_of;
 
 template <class R>
 inline constexpr bool kDouble = std::is_same_v<R, double>;
@@ -155,11 +155,6 @@ MMS_INLINE float sine_float(float x) {
   return bits<float>(bits<std::uint32_t>(value) ^ flip ^ sign);
 }
 
-/// Arguments beyond 200 are taken for 200: floats end before.
-MMS_INLINE Exponential exponential(double x) {
-  return exponential_in_range(x > 200 ? 200 : x < -200 ? -200 : x);
-}
-MMS_INLINE double exp_core(double x) { return value_of(exponential(x)); }
 /// e^x - 1 without cancellation.
 MMS_INLINE double expm1_core(double x) {
   const Exponential e = exponential(x);

@@ -42,24 +42,19 @@ struct BeckmannSlopes {
   static double place(double t) { return std::tanh(t); }
   MMS_INLINE static double slope(double m) { return core::log_in_range((1 + m) / (1 - m)) / 2; }
   MMS_INLINE static double derivative(double m, double) { return 1 / ((1 - m) * (1 + m)); }
-  MMS_INLINE static double density(double t2) { return exp_minus(t2); }
+  MMS_INLINE static double density(double t2) { return core::exp_core(-t2); }
   MMS_INLINE static double spread(double) { return 1; }
   /// Beckmann::shadow. Polynomial, of exp(a^2) s(a) / v^2 over v: relative error 7e-9.
   MMS_INLINE static double shadow(const Beckmann<double>& facets, Vec3d w) {
     const double t = facets.tangent(w), z = std::abs(w.z), far = z > 6 * t;
     const double a = far ? 6.0 : z / t, v = 1 / (1 + 0.4 * a);
     const double s =
-        exp_minus(a * a) * (v * v) *
+        core::exp_core(-a * a) * (v * v) *
         core::polynomial(v, 0x1.723a129e424c7p-5, 0x1.6c31ebbf89706p-4, 0x1.1b1747f2eedb7p-3,
                          0x1.de7c323e57093p-5, 0x1.a340836f5465cp-2, -0x1.37f7d463250b3p-1,
                          0x1.1aa209222a762p+0, -0x1.102f56c506a31p+0, 0x1.e5d2c30e64c19p-2,
                          -0x1.4f8993380809dp-4);
     return far ? 0.0 : t * s / 2;
-  }
-
- private:
-  MMS_INLINE static double exp_minus(double x) {
-    return core::value_of(core::exponential_in_range(x < 200 ? -x : -200.0));
   }
 };
 inline GgxSlopes slopes_of(const Ggx<double>&) { return {}; }
