@@ -373,7 +373,7 @@ std::string difference(const Run& a, const Run& b, int first_lane, int lanes) {
 }  // namespace
 
 /// Lanes of the largest batch that is compared; scripts that recurse for ever run in each of them.
-constexpr int kMostLanes = kSanitized ? 32 : 256;
+constexpr int kMostLanes = kSanitized ? 16 : 256;
 
 namespace {
 

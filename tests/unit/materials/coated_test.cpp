@@ -60,16 +60,14 @@ Range under_coats(const Make& make, std::initializer_list<double> numbers,
   Range range;
   for (double ior : iors)
     for (double number : numbers)
-      for (double degrees : kAngles) {
-        if (kSanitized && (ior != 1.5 || degrees != 85)) continue;
+      for (double degrees : kAngles)
         range.add(coated_albedo(make(number), ior, degrees, azimuth, panels));
-      }
   return range;
 }
 
 }  // namespace
 
-TEST_CASE("a lossless lobe under a lossless coat keeps its energy") {
+TEST_CASE("a lossless lobe under a lossless coat keeps its energy" * kSum) {
   struct Row {
     std::string name;
     Material (*make)(double number);
@@ -93,7 +91,7 @@ TEST_CASE("a lossless lobe under a lossless coat keeps its energy") {
   CHECK(narrow.most < 1 + 1e-4);
 }
 
-TEST_CASE("rough_matte under a polished coat keeps its energy") {
+TEST_CASE("rough_matte under a polished coat keeps its energy" * kSum) {
   const auto make = [](double r) { return tinted(Lobe::RoughMatte, 1, {r}); };
   const Range a = under_coats(make, {0.15, 0.5, 1.0}, {1.05, 1.5, 4.0}, 0, 16);
   CHECK(a.least > 1 - 1e-4);
@@ -102,7 +100,7 @@ TEST_CASE("rough_matte under a polished coat keeps its energy") {
 }
 
 // Widths of a lattice, which are none of the tables' nodes.
-TEST_CASE("a lossless lobe under a rough lossless coat keeps its energy") {
+TEST_CASE("a lossless lobe under a rough lossless coat keeps its energy" * kSum) {
   struct Kind {
     std::string name;
     Material (*make)(double place);
@@ -115,7 +113,7 @@ TEST_CASE("a lossless lobe under a rough lossless coat keeps its energy") {
       {"rough_matte", [](double x) { return tinted(Lobe::RoughMatte, 1, {x}); }, 16},
       {"matte", [](double) { return matte(1); }}};
   const Kind metal = {"conductor", [](double x) { return conductor(1, 1e25, 0.1 + 0.9 * x); }};
-  const int cases = swept(40, 2);
+  const int cases = swept(40);
   for (const Kind& base : bases)
     for (const Kind& top : {bases[0], bases[1], bases[2], metal}) {
       Range a;
@@ -132,7 +130,7 @@ TEST_CASE("a lossless lobe under a rough lossless coat keeps its energy") {
     }
 }
 
-TEST_CASE("a matte under a stretched coat keeps its energy") {
+TEST_CASE("a matte under a stretched coat keeps its energy" * kSum) {
   struct Row {
     std::string name;
     Material (*make)(double roughness, double anisotropy);
@@ -141,9 +139,8 @@ TEST_CASE("a matte under a stretched coat keeps its energy") {
                       {"beckmann", [](double r, double a) { return scale(beckmann(1, r, a), 1); }}};
   for (const Row& row : rows)
     for (double anisotropy : {0.3, -0.6, 0.9, 1.0}) {
-      if (kSanitized && anisotropy > 0.8) continue;  // too few panels
       Range range;
-      for (int k = 1; k <= swept(40, 4); ++k) {
+      for (int k = 1; k <= swept(40); ++k) {
         const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
         const double ior = 1.02 * std::pow(4 / 1.02, place(0.5497));
         const Material top = row.make(0.2 + 0.8 * place(0.6710), anisotropy);
@@ -157,7 +154,7 @@ TEST_CASE("a matte under a stretched coat keeps its energy") {
     }
 }
 
-TEST_CASE("lossless lobes under a coat of several lobes keep their energy") {
+TEST_CASE("lossless lobes under a coat of several lobes keep their energy" * kSum) {
   struct Row {
     std::string name;
     Material (*make)(double x, double y);
@@ -186,7 +183,7 @@ TEST_CASE("lossless lobes under a coat of several lobes keep their energy") {
        0}};
   for (const Row& row : rows) {
     Range matte_below, facets_below;
-    for (int k = 1; k <= swept(20, 2); ++k) {
+    for (int k = 1; k <= swept(20); ++k) {
       const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
       const double ior = 1.02 * std::pow(4 / 1.02, place(0.5497));
       const double degrees = kAngles[k % std::size(kAngles)];
@@ -209,7 +206,7 @@ TEST_CASE("lossless lobes under a coat of several lobes keep their energy") {
   }
 }
 
-TEST_CASE("lossless lobes under two lossless coats keep their energy") {
+TEST_CASE("lossless lobes under two lossless coats keep their energy" * kSum) {
   struct Kind {
     std::string name;
     Material (*make)(double place);
@@ -222,7 +219,7 @@ TEST_CASE("lossless lobes under two lossless coats keep their energy") {
                         {"rough_matte", [](double x) { return tinted(Lobe::RoughMatte, 1, {x}); }},
                         lobes[1],
                         lobes[3]};
-  constexpr int kCases = kSanitized ? 1 : 6;
+  constexpr int kCases = 6;
   for (const Kind& base : bases) {
     const int panels = base.name == "rough_matte" ? 16 : 8;  // it is not smooth
     Range a;
@@ -249,7 +246,7 @@ TEST_CASE("lossless lobes under two lossless coats keep their energy") {
   }
 }
 
-TEST_CASE("what lies under a film, and a coat under one, keeps its energy") {
+TEST_CASE("what lies under a film, and a coat under one, keeps its energy" * kSum) {
   struct Kind {
     std::string name;
     Material (*make)(double place);
@@ -263,7 +260,7 @@ TEST_CASE("what lies under a film, and a coat under one, keeps its energy") {
     Range a;
     int k = 0;
     for (const Kind& top : tops)
-      for (int n = 0; n < swept(12, 1); ++n) {
+      for (int n = 0; n < swept(12); ++n) {
         ++k;
         const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
         const double degrees = kAngles[k % std::size(kAngles)];
@@ -302,7 +299,7 @@ TEST_CASE("what lies under a film, and a coat under one, keeps its energy") {
   }
 }
 
-TEST_CASE("plastic under coats of several lobes, of stretched ones, and under two") {
+TEST_CASE("plastic under coats of several lobes, of stretched ones, and under two" * kSum) {
   struct Row {
     std::string name;
     Material (*make)(double x, double y, double ior_above, double ior_below);
@@ -367,9 +364,8 @@ TEST_CASE("plastic under coats of several lobes, of stretched ones, and under tw
       {"thirty coats", [](double x, double y, double a, double b) { return stack(30, x, y, a, b); },
        1 - 1e-4, 1 + 1e-4}};
   for (const Row& row : rows) {
-    if (kSanitized && row.panels > 12) continue;  // too slow
     Range a;
-    for (int k = 1; k <= swept(20, 1); ++k) {
+    for (int k = 1; k <= swept(20); ++k) {
       const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
       const auto ior = [&](double step) { return 1.02 * std::pow(2.5 / 1.02, place(step)); };
       a.add(albedo(
@@ -382,7 +378,7 @@ TEST_CASE("plastic under coats of several lobes, of stretched ones, and under tw
   }
 }
 
-TEST_CASE("stretched facets, rough coats of them, and both keep their energy") {
+TEST_CASE("stretched facets, rough coats of them, and both keep their energy" * kSum) {
   using Make = Material (*)(double roughness, double anisotropy);
   const struct {
     std::string name;
@@ -392,9 +388,8 @@ TEST_CASE("stretched facets, rough coats of them, and both keep their energy") {
   for (const auto& top : kinds)
     for (const auto& base : kinds)
       for (const double anisotropy : {0.4, 0.9}) {
-        if (kSanitized && anisotropy > 0.8) continue;  // too few panels
         Range range;
-        for (int k = 1; k <= swept(24, 2); ++k) {
+        for (int k = 1; k <= swept(24); ++k) {
           const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
           const double ior = 1.05 * std::pow(3.5 / 1.05, place(0.5497));
           const double which = k % 3;  // 0: the coat alone is round; 1: the base alone; 2: crossed
@@ -470,7 +465,7 @@ TEST_CASE("a choice that was made for other coats changes nothing") {
       }
 }
 
-TEST_CASE("stretched facets under a coat keep their energy") {
+TEST_CASE("stretched facets under a coat keep their energy" * kSum) {
   struct Row {
     std::string name;
     Material (*make)(double roughness, double anisotropy);
@@ -480,16 +475,15 @@ TEST_CASE("stretched facets under a coat keep their energy") {
                       {"conductor", [](double r, double a) { return conductor(1, 1e25, r, a); }}};
   for (const Row& row : rows)
     for (double anisotropy : {0.3, -0.6, 0.9, 1.0}) {
-      if (kSanitized && anisotropy > 0.8) continue;  // too few panels
       const bool most = anisotropy > 0.9;
-      const int panels = kSanitized ? 10 : anisotropy < 0.9 ? 12 : 20;  // lobes are narrow
+      const int panels = anisotropy < 0.9 ? 12 : 20;  // lobes are narrow
       Range range;
       for (double roughness : {0.3, 0.45, 0.9})
         for (double ior : {1.05, 2.2})
           for (double degrees : {10.0, 60.0, 86.0})
             for (double azimuth : {0.2, 1.3}) {
-              if ((kSanitized || most) && roughness != 0.45) continue;
-              if ((kSanitized || panels > 12) && degrees == 60) continue;
+              if (most && roughness != 0.45) continue;
+              if (panels > 12 && degrees == 60) continue;
               range.add(
                   coated_albedo(row.make(roughness, anisotropy), ior, degrees, azimuth, panels));
             }

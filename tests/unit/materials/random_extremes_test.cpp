@@ -300,8 +300,10 @@ double half_mass(const Distribution& d, Vec3d pole, const std::vector<Vec3d>& dr
   stats::detail::split({0, equator, 0, half}, points.begin(), behind, cells, true, all);
   stats::detail::split({0, equator, half, 2 * half}, behind, points.end(), cells, true, all);
   double sum = 0;
+  // Each within a tenth of what 20 000 draws would tell of it: rounding in float densities keeps
+  // narrow ones from settling closer.
   for (const Rectangle& cell : all)
-    sum += stats::detail::integrate_cell(cell, 1e-4, 100'000, [&](double t, double phi) {
+    sum += stats::detail::integrate_cell(cell, 3e-4, 20'000, [&](double t, double phi) {
              return 4 * t * d.pdf(stats::detail::from_polar(frame, t, phi));
            }).value;
   return sum;
