@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "materials/weighted_rows.h"
+
 namespace mms::materials {
 
 /// The four coefficients that `x` in [0, 1] depends on, and their weights, which sum to 1.
@@ -50,17 +52,35 @@ inline R interpolate(const T* table, const Stencil<R>& a, int stride, const Rest
   return sum;
 }
 
-/// Adds `weight` times what the table holds for each of `terms` numbers, its innermost axis.
+/// `visit(first, weight)` for the rows of a table whose innermost axis is one of many numbers.
 /// `stride` is given for every axis.
-template <class T, class R>
-inline void add_terms(R* sums, int terms, const T* p, R weight) {
-  for (int t = 0; t < terms; ++t) sums[t] += weight * R(p[t]);
+template <class R, class Visit>
+inline void visit_rows(const Visit& visit, int first, R weight) {
+  visit(first, weight);
 }
-template <class T, class R, class... Rest>
-inline void add_terms(R* sums, int terms, const T* table, R weight, const Stencil<R>& a, int stride,
-                      const Rest&... rest) {
+template <class R, class Visit, class... Rest>
+inline void visit_rows(const Visit& visit, int first, R weight, const Stencil<R>& a, int stride,
+                       const Rest&... rest) {
   for (int k = 0; k < 4; ++k)
-    add_terms(sums, terms, table + (a.first + k) * stride, weight * a.weight[k], rest...);
+    visit_rows(visit, first + (a.first + k) * stride, weight * a.weight[k], rest...);
+}
+
+/// Adds `weight` times what the table holds for each of `terms` numbers.
+template <class R, class... Axes>
+inline void add_terms(R* sums, int terms, const float* table, R weight, const Axes&... axes) {
+#if defined(__x86_64__)
+  if constexpr (sizeof(R) <= sizeof(double)) {  // no long double
+    if (terms >= avx2::Lanes<R>::kCount && __builtin_cpu_supports("avx2")) {
+      WeightedRows<R, 1 << sizeof...(Axes)> rows;  // four along each of half as many axes
+      visit_rows([&](int first, R by) { rows.add(first, by); }, 0, weight, axes...);
+      return avx2::add_rows(sums, terms, table, rows);
+    }
+  }
+#endif
+  const auto add = [&](int first, R by) {
+    for (int t = 0; t < terms; ++t) sums[t] += by * R(table[first + t]);
+  };
+  visit_rows(add, 0, weight, axes...);
 }
 
 }  // namespace mms::materials

@@ -18,8 +18,8 @@
 
 namespace mms::test {
 
-/// Decorates a case that sums f over many directions, and does no more: sanitizers see the same code
-/// in random calls of every model, a hundred times as fast.
+/// Decorates a case that sums f over many directions, and does no more: sanitizers see the same
+/// code in random calls of every model, a hundred times as fast.
 inline const doctest::skip kSum(kSanitized);
 
 /// How many settings a sweep of energy tries: `all` of them in `./run nightly`, half else.

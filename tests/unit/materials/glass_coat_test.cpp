@@ -100,7 +100,8 @@ void check_round(const std::string& name, Lobe lobe, double least, double most, 
 
 }  // namespace
 
-TEST_CASE("white rough glass under a polished coat is lossless within 1e-3, from both sides" * kSum) {
+TEST_CASE("white rough glass under a polished coat is lossless within 1e-3, from both sides" *
+          kSum) {
   check_round<GgxFacets>("dielectric", Lobe::Dielectric, 0.1, 1, 1e-3);
   check_round<BeckmannFacets>("beckmann_dielectric", Lobe::BeckmannDielectric, 0.1, 1, 1e-3);
 }

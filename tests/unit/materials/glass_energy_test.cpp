@@ -121,7 +121,8 @@ const Glass<BeckmannFacets> kBeckmann{"beckmann_dielectric", Lobe::BeckmannDiele
 
 }  // namespace
 
-TEST_CASE("white rough glass is lossless within 1e-3, from both sides and up to 89.99 degrees" * kSum) {
+TEST_CASE("white rough glass is lossless within 1e-3, from both sides and up to 89.99 degrees" *
+          kSum) {
   check_round(kGgx);
   check_round(kBeckmann);
 }
@@ -131,8 +132,8 @@ TEST_CASE("white rough glass of stretched facets is too, up to anisotropy 0.9" *
   check_stretched(kBeckmann);
 }
 
-TEST_CASE(
-    "white glass is lossless within 1e-3 between the nodes of its tables, nearly smooth too" * kSum) {
+TEST_CASE("white glass is lossless within 1e-3 between the nodes of its tables, nearly smooth too" *
+          kSum) {
   check_between(kGgx, 0.02, 0.1, 0, 1e-3);
   check_between(kBeckmann, 0.02, 0.1, 0, 1e-3);
   check_between(kGgx, 0.1, 1, 0, 1e-3);
