@@ -120,6 +120,8 @@ constexpr const char* kVariants[] = {
     "dielectric(1.45 + 1e-14 / ($wavelength * $wavelength), 0.4, anisotropy = 0.8)",
     "beckmann_dielectric(1.5, 0.4, anisotropy = 0.8)",
     "film_conductor(2.5, 3.0, 1.5, 300nm, $wavelength, 0.3)",
+    "film_dielectric(1.5, 1.38, 600nm, $wavelength, 0.2)",
+    "film_dielectric(1.5, 1.38, 600nm, $wavelength, 0.4, anisotropy = 0.8)",
     "film_mix(matte(0.5), microfacet(1, 0.3), 1.5, 1.38, 300nm, $wavelength)",
     "coat(conductor(0.2, 3.4, 0.3), matte(0.5))",
     "coat(mirror(), fresnel_mix(matte(0.5), glossy(1, 40.0)))",
