@@ -327,7 +327,7 @@ inline void find_coats(const Layout& layout, const R* params, const Frames<R>& f
       coated(a, b, p, detail::films(p + kWavelengths), nullptr);
     else if (node.lobe == Lobe::Coat)
       coated(b, a, p + 1 + kWavelengths, {}, p);
-    else if (node.lobe == Lobe::Layer && nodes[a].lobe == Lobe::Sheen)
+    else if (node.lobe == Lobe::Layer && layout.unturned(a).lobe == Lobe::Sheen)
       above[b] = {};
     else if (node.lobe == Lobe::Tilt)
       above[a] = {.matte_base = above[i].matte_base};

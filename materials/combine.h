@@ -136,7 +136,7 @@ struct LayerLeaves {
 
   LayerLeaves(const Layout& layout, const R* params, const Layout::Node& node)
       : weight(limited(params[node.first_param], R(0), R(1))) {
-    const Layout::Node& top = layout.nodes()[node.children[0]];
+    const Layout::Node& top = layout.unturned(node.children[0]);
     if (top.lobe == Lobe::Sheen) fibres.emplace(params[top.first_param + kWavelengths]);
   }
 

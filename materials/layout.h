@@ -39,6 +39,12 @@ class Layout {
 
   std::span<const Node> nodes() const { return nodes_; }
   bool empty() const { return nodes_.empty(); }
+  /// What is below the turns of node `i`: of a lobe that is alike all around the normal they change
+  /// nothing.
+  const Node& unturned(int i) const {
+    while (nodes_[i].lobe == Lobe::Turn) i = nodes_[i].children[0];
+    return nodes_[i];
+  }
   /// Numbers in the flat array.
   int param_count() const { return param_count_; }
 

@@ -136,6 +136,8 @@ TEST_CASE("sheen's albedo is its table's, and a white base under it stays white"
       CHECK(std::abs(albedo(sheen(0.5, roughness), degrees, Mode::Radiance) - 0.5 * r) < 1e-4);
       CHECK(std::abs(albedo(layer(sheen(1, roughness), matte(1)), degrees, Mode::Radiance) - 1) <
             1e-4);
+      CHECK(albedo(layer(turn(sheen(1, roughness), 0.7), matte(1)), degrees, Mode::Radiance) ==
+            doctest::Approx(1).epsilon(1e-4));
       // Light that comes along this direction: what the fit of `sheen` is off in its adjoint.
       CHECK(std::abs(albedo(layer(sheen(1, roughness), matte(1)), degrees, Mode::Importance) - 1) <
             0.2);
