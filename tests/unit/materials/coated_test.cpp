@@ -449,6 +449,9 @@ TEST_CASE("a choice that was made for other coats changes nothing") {
       coat(microfacet(1, 0.3), glossy(1, 30), 0, 0, 1.6),
       coat(microfacet(1, 0.3), glossy(1, 20), 0, 0, 1.6),
       coat(glossy(1, 9), glossy(1, 20), 0, 0, 1.6),
+      coat(conductor(0.2, 3.4, 0.3), glossy(1, 20), 0, 0, 1.6),
+      coat(coloured_metal(0.8, 1, 0.3), glossy(1, 20), 0, 0, 1.6),
+      coat(film_conductor(0.2, 3.4, 1.5, 3e-7, 5e-7, 0.3), glossy(1, 20), 0, 0, 1.6),
       coat(glossy(1, 9), matte(1), 0, 0, 1)};
   Bsdf<double>::Choice kept;
   const Vec3d wi = direction(40, 2.0);
