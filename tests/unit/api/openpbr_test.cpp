@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/sanitized.h"
+#include "tests/sums.h"
 #include "tests/unit/api/linked.h"
 
 namespace mms::api {
@@ -76,7 +77,7 @@ Weights weights(const OpenPbr& p, double cosine, std::size_t count, double ior =
   return w;
 }
 
-TEST_CASE("openpbr: its lossless settings keep all light") {
+TEST_CASE("openpbr: its lossless settings keep all light" * kSum) {
   const struct {
     const char* what;
     Settings settings;

@@ -14,13 +14,10 @@
 #include "base/quadrature.h"
 #include "tests/sanitized.h"
 #include "tests/setting.h"
+#include "tests/sums.h"
 #include "tests/unit/materials/make.h"
 
 namespace mms::test {
-
-/// The suite of cases that sum f over many directions, and do no more. ctest leaves it out under
-/// sanitizers, which see the same code in random calls of every model, a hundred times as fast.
-inline const doctest::test_suite kSum("sums");
 
 /// How many settings a sweep of energy tries: `all` of them in `./run nightly`, half else.
 inline int swept(int all) { return setting("MMS_ENERGY_SWEEP", 0) > 0 ? all : all / 2; }
