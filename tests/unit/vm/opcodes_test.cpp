@@ -3,6 +3,7 @@
 #include <random>
 
 #include "harness.h"
+#include "tests/sanitized.h"
 
 namespace mms::vm::test {
 namespace {
@@ -104,7 +105,7 @@ void check_instruction(Op op) {
   CAPTURE(row.name);
   const Program p = apply_program(op);
   Draw<T> draw;
-  for (int batch = 0; batch < 16; ++batch) {
+  for (int batch = 0; batch < (kSanitized ? 4 : 16); ++batch) {
     std::vector<Point<T>> points(250, zero_point<T>());
     for (Point<T>& point : points)
       for (int k = 0; k < int(row.pops.size()); ++k) {

@@ -2,6 +2,7 @@
 // Random programs: against the reference, in different batches, and broken at random.
 #include "generator.h"
 #include "harness.h"
+#include "tests/sanitized.h"
 
 namespace mms::vm::test {
 namespace {
@@ -113,9 +114,10 @@ class Mutator {
 };
 
 TEST_CASE("a program broken at random is refused, or runs and both builds agree") {
+  constexpr int kPrograms = kSanitized ? 1500 : 6000;
   int refused = 0, ran = 0;
   Interpreter<float> best(16), baseline(16, Isa::Baseline);
-  for (std::uint32_t seed = 0; seed < 6000; ++seed) {
+  for (std::uint32_t seed = 0; seed < kPrograms; ++seed) {
     CAPTURE(seed);
     Program p = Generator(seed % 600).program(seed % 16 == 0);
     Mutator mutator(seed);
@@ -130,8 +132,8 @@ TEST_CASE("a program broken at random is refused, or runs and both builds agree"
     const auto points = random_points<float>(7, seed);
     CHECK(run(best, exe, p, 0, points) == run(baseline, exe, p, 0, points));
   }
-  CHECK(refused > 1000);
-  CHECK(ran > 300);
+  CHECK(refused > kPrograms / 6);
+  CHECK(ran > kPrograms / 20);
 }
 
 }  // namespace
