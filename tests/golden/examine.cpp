@@ -415,17 +415,18 @@ void check_agreement(const lang::SourcePtr& source, const lang::LinkOptions& opt
   const std::vector<Variant> variants = variants_of(source, options, failures);
   if (variants.empty()) return;
   const vm::Program& best = variants[0].program;
-  std::vector<vm::Executable> executables;
-  std::vector<std::vector<Point>> points_of_each;
-  for (const Variant& v : variants) {
-    executables.emplace_back(v.program);
-    points_of_each.push_back(points_of(v.program));
-  }
-  const vm::Executable& executable = executables[0];
+  struct Ready {
+    vm::Executable executable;
+    std::vector<Point> points;
+  };
+  std::vector<Ready> ready;
+  for (const Variant& v : variants)
+    ready.push_back({vm::Executable(v.program), points_of(v.program)});
+  const vm::Executable& executable = ready[0].executable;
+  const std::vector<Point>& all = ready[0].points;
   const int width = std::min(executable.width(), kMostLanes);
   auto in = points<float>(width);
   auto in64 = points<double>(width);
-  const std::vector<Point>& all = points_of_each[0];
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Run whole = evaluate(best, executable, all[k], in, width);
     auto report = [&](const std::string& what, const std::string& how) {
@@ -435,7 +436,7 @@ void check_agreement(const lang::SourcePtr& source, const lang::LinkOptions& opt
     for (std::size_t v = 1; v < variants.size(); ++v) {
       const vm::Program& p = variants[v].program;
       if (slow && !variants[v].always) continue;
-      const Run other = evaluate(p, executables[v], points_of_each[v][k], in, width);
+      const Run other = evaluate(p, ready[v].executable, ready[v].points[k], in, width);
       report(difference(whole, other, 0, width), variants[v].how);
       if (other.faults.size() != whole.faults.size()) report("other faults", variants[v].how);
     }
