@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What evaluating and sampling each scattering model costs, next to how far its floats are from its
-// doubles: prints the table and writes its part of docs/performance.md.
+// doubles: prints the table and writes its part of docs/performance.md; or prints that of the
+// materials of surfaces that are named, as `coat(mirror(), matte(0.5))`, alone.
 //
 //   bench_materials [--no-document]
+//   bench_materials MATERIAL...
 #include <fmt/core.h>
 
 #include <cmath>
@@ -225,8 +227,14 @@ std::vector<Row> rows() {
   return all;
 }
 
-std::string document() {
-  const std::vector<Row> all = rows();
+/// Of surfaces' materials.
+std::vector<Row> rows_of(const std::vector<std::string>& texts) {
+  std::vector<Row> all;
+  for (const std::string& text : texts) all.push_back(row_of<Surface>(text, make(text, false)));
+  return all;
+}
+
+std::string table_of(const std::vector<Row>& all) {
   // All materials in every round, so that a machine whose speed changes is the same to each.
   std::vector<std::function<void()>> calls;
   for (const Row& r : all) calls.insert(calls.end(), r.calls.begin(), r.calls.end());
@@ -243,6 +251,10 @@ std::string document() {
                  ? " | |\n"
                  : fmt::format(" {:.1f} | {:.0f} |\n", median(r.errors), quantile(r.errors, 0.999));
   }
+  return table;
+}
+
+std::string document() {
   return fmt::format(
       "## Materials, ns a hit\n\nAll eight wavelengths of a hit in float, the choice among parts "
       "included: the median of {} rounds, of all\nmaterials in turn, over {} hits, half of whose "
@@ -251,12 +263,17 @@ std::string document() {
       "are\nsolved for is kept from hit to hit, as along paths. `error` is how far f in float is "
       "from f in double at the same\nnumbers, in units of 2^-24 of it; of models that are ideally "
       "specular, so are weights of samples. `./run bench`, or `bench_materials` alone.\n\n{}",
-      kRounds, kHits, table);
+      kRounds, kHits, table_of(rows()));
 }
 
 }  // namespace
 }  // namespace mms::bench
 
 int main(int count, char** arguments) {
-  return mms::bench::part_main(count, arguments, "materials", mms::bench::document);
+  using namespace mms::bench;
+  if (count > 1 && arguments[1][0] != '-') {
+    fmt::print("{}", table_of(rows_of({arguments + 1, arguments + count})));
+    return 0;
+  }
+  return part_main(count, arguments, "materials", document);
 }
