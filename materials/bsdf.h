@@ -71,7 +71,7 @@ class Bsdf {
     PerNode<Spectrum<R>> probability;     ///< of lobes only
     bool any = false;                     ///< the hero has something to choose from
     Frames<R> frames;                     ///< of parts
-    PerNode<CoatAbove<R>> coats;          ///< where there is more than one node
+    CoatTree<R> coats;                    ///< where there is more than one node
     PerNode<OverGlass<R>> glass;          ///< of coats that are over glass
     SolvedPerNode<UnderCoats<R>> under;   ///< of lobes that have several coats above or are of one
     std::bitset<kMaxNodes> solved;        ///< for which nodes `under` is asked

@@ -235,19 +235,19 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
   choice.any = sum[0] > 0;
   choice.solved.reset();
   for (int i = 0; i < node_count(); ++i) {
-    const CoatAbove<R>& coat = choice.coats.of[i];
-    const bool part = coat.part_of >= 0;
-    if (!part && coat.matte_base < 0) continue;
+    const NodeAbove& above = choice.coats.above.of[i];
+    const bool part = above.part_of >= 0;
+    if (!part && above.matte_base < 0) continue;
     const Vec3<R> w = choice.frames.seen(i, wo);
     with_model(i, 0, [&](const auto& model) {
       if constexpr (detail::kLambert<R, std::decay_t<decltype(model)>>) {
-        if (const int base = coat.matte_base; base >= 0)
-          choice.coats.of[base].mean = mean_through_coats(i, base, choice);
+        if (const int base = above.matte_base; base >= 0)
+          choice.coats[base].mean = mean_through_coats(i, base, choice);
       }
-      if (!part && !coat.ior) return 0;
+      if (!part && !above.coated()) return 0;
       const auto solve = [&](const CoatedLobe<R>& lobe) {
-        if (!is_solved_for(choice.coats, coat)) return;
-        choice.under.solve(i, lobe.round(), coats_above(choice.coats, coat, lobe.broad()));
+        if (!is_solved_for(choice.coats, above)) return;
+        choice.under.solve(i, lobe.round(), coats_above(choice.coats, above, lobe.broad()));
         choice.solved.set(i);
       };
       if constexpr (requires { model.coated(w); }) {
@@ -255,11 +255,12 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
         const CoatedLobe<R> lobe = model.coated(w);
         solve(lobe);
         choice.scaling.of[i] =
-            coated_scaling(choice.coats, coat, choice.solution(i), lobe, coat.through_o);
+            coated_scaling(choice.coats, above, choice.solution(i), lobe,
+                           above.coated() ? choice.coats[above.base].through_o : Spectrum<R>());
       } else if constexpr (requires { model.coated(w, 0); }) {
-        if (detail::is_specular(model) || !coat.passed_once) return 0;
+        if (detail::is_specular(model) || above.once_base < 0) return 0;
         solve(model.coated(w, 0));
-        choice.scaling.of[i] = bent_scaling(choice.coats, coat, choice.solution(i), model, w);
+        choice.scaling.of[i] = bent_scaling(choice.coats, above, choice.solution(i), model, w);
       }
       return 0;
     });
@@ -268,16 +269,9 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
 
 template <class R>
 Spectrum<R> Bsdf<R>::mean_through_coats(int lobe, int base, Choice& choice) const {
-  const CoatAbove<R>& above = choice.coats.of[base];
-  Spectrum<R> mean;
-  if (above.upper < 0 && !above.numbers.filmed()) {
-    for (int j = 0; j < kWavelengths; ++j)
-      mean[j] = above.numbers.repeated(j) ? mean[j - 1] : 1 - above.numbers.mean_reflected(j);
-  } else {
-    choice.means.solve(lobe, coats_above(choice.coats, above));
-    mean = choice.means[lobe].mean();
-  }
-  return mean;
+  SolvedCoat<R>& alone = choice.coats.solved[base];
+  if (choice.coats[base].upper < 0 && !alone.numbers().filmed()) return alone.mean_through();
+  return choice.means.solve(lobe, coats_above(choice.coats, choice.coats.above.of[base])).mean();
 }
 
 template <class R>
@@ -288,9 +282,9 @@ void Bsdf<R>::find_coated_glass(Vec3<R> wo, Choice& choice) const {
                           [&](const auto& model) { return detail::knows_coats<R>(model, coats); });
       });
   for (int i = 0; i < node_count(); ++i) {
-    if (choice.coats.of[i].base != i || !choice.coats.of[i].over_glass) continue;
+    if (!choice.coats.starts_at(i) || !choice.coats[i].over_glass) continue;
     OverGlass<R>& glass = choice.glass.of[i];
-    glass.colour = choice.coats.of[i].kind.colour;
+    glass.colour = choice.coats[i].kind.colour;
     glass.o = sent_back(i, wo, choice);
     glass.mean = mean_spread(i, wo.z < 0, choice);
   }
@@ -298,21 +292,20 @@ void Bsdf<R>::find_coated_glass(Vec3<R> wo, Choice& choice) const {
 
 template <class R>
 Sent<R> Bsdf<R>::sent_back(int base, Vec3<R> w, const Choice& choice) const {
-  const CoatAbove<R>& above = choice.coats.of[base];
-  const CoatsOnGlass<R> coats{choice.coats, above, choice.glass.of[base].law};
+  const CoatsOnGlass<R> coats{choice.coats, base, choice.glass.of[base].law};
   Sent<R> sent;
   const auto add = [&](const SentBack<R>& back, const Spectrum<R>& weight) {
     for (int j = 0; j < kWavelengths; ++j) {
       // Of light outside, directions say what passes the layers (materials/combine.h).
       const R layers = choice.frames.seen(base, w).z > 0 ? R(1) : coats.layers(j, back.cosine[j]);
       const R share = weight[j] * back.share[j] * layers * layers;
-      const R spread = back.broad * above.kind.broad(j);
+      const R spread = back.broad * choice.coats[base].kind.broad(j);
       sent.mirrored[j] += share * (1 - spread);
       sent.spread[j] += share * spread;
     }
   };
   for_each_below(*layout_, params_, choice.coats, base, [&](int i, const Spectrum<R>& weight) {
-    if (!choice.coats.of[i].passed_once) return;
+    if (choice.coats.above.of[i].once_base < 0) return;
     const Vec3<R> seen = choice.frames.seen(i, w);
     with_model(i, 0, [&](const auto& model) {
       if constexpr (requires { model.sent_back(seen, coats); })
@@ -334,7 +327,7 @@ Spectrum<R> Bsdf<R>::mean_spread(int base, bool inside, const Choice& choice) co
   R at = 0;
   bool stretched = false;
   for_each_below(*layout_, params_, choice.coats, base, [&](int i, const Spectrum<R>&) {
-    if (!choice.coats.of[i].passed_once) return;
+    if (choice.coats.above.of[i].once_base < 0) return;
     with_model(i, 0, [&](const auto& model) {
       if constexpr (requires {
                       model.facets;
@@ -372,8 +365,7 @@ Spectrum<R> Bsdf<R>::mean_spread(int base, bool inside, const Choice& choice) co
 template <class R>
 const OverGlass<R>* Bsdf<R>::over_glass(int i, const Choice& choice) const {
   const int base = coat_base(layout_->nodes()[i]);
-  if (base < 0 || choice.coats.of[base].base != base || !choice.coats.of[base].over_glass)
-    return nullptr;
+  if (base < 0 || !choice.coats.starts_at(base) || !choice.coats[base].over_glass) return nullptr;
   return &choice.glass.of[base];
 }
 
@@ -417,27 +409,28 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
         const Lobes<R> l = detail::evaluate<R>(model, wo, wi, mode, i, choice);
         total.pdf += l.pdf * choice.probability.of[i];
         const NodeWeight<R>& w = weights.of[i];
-        const CoatAbove<R>& above = choice.coats.of[i];
+        const NodeAbove& above = choice.coats.above.of[i];
         const auto coated = [&](const Spectrum<R>& counted, const Spectrum<R>& g_i) {
           return coated_weight(choice.coats, above, counted, w.other, choice.scaling.of[i], g_i);
         };
         if constexpr (requires { model.coated(wi); }) {
-          if (above.part_of >= 0 || above.ior) {
+          if (above.part_of >= 0 || above.coated()) {
             const CoatedLobe<R> lobe = model.coated(choice.frames.seen(i, wi));
             total.f += l.f * coated(w.bare, coated_scaling(choice.coats, above, choice.solution(i),
                                                            lobe, w.through_i));
             return 0;
           }
         } else if constexpr (requires { model.coated(wi, 0); }) {
-          if (above.passed_once && !same_side(wo, wi)) {
+          if (above.once_base >= 0 && !same_side(wo, wi)) {
             total.f +=
                 l.f * coated(w.crossing, bent_scaling(choice.coats, above, choice.solution(i),
                                                       model, choice.frames.seen(i, wi)));
             return 0;
           }
         }
-        if (above.passed_once)
-          total.f += l.f * glass_weight(w, above, choice.glass.of[above.base], wo, wi);
+        if (above.once_base >= 0)
+          total.f += l.f * glass_weight(w, choice.coats[above.once_base],
+                                        choice.glass.of[above.once_base], wo, wi);
         else
           total.f += l.f * (detail::kLambert<R, Model> ? w.lambert : w.other);
       }
@@ -534,11 +527,12 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u,
     const SpecularTerms<R> t = i == lobe ? mine : terms_of(i);
     Spectrum<R> weight = weights.of[i].other;
     if (node_count() > 1) {
-      const CoatAbove<R>& above = choice.coats.of[i];
+      const NodeAbove& above = choice.coats.above.of[i];
       if (const OverGlass<R>* glass = over_glass(i, choice))
         weight = weights.of[coat_base(layout_->nodes()[i])].crossing * glass->colour;
-      else if (above.passed_once)
-        weight = glass_weight(weights.of[i], above, choice.glass.of[above.base], wo, s.wi);
+      else if (above.once_base >= 0)
+        weight = glass_weight(weights.of[i], choice.coats[above.once_base],
+                              choice.glass.of[above.once_base], wo, s.wi);
       else
         weight = delta_weight(weight, choice.coats, above, cos_i);
     }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <bitset>
+#include <memory>
 #include <optional>
 
 #include "materials/coat.h"
@@ -37,30 +38,68 @@ struct CoatKind {
   R broad(int j) const { return known || polished ? held[j] + even[j] : R(1); }
 };
 
-/// The coat right above a node, where light is seen along one direction.
+/// What lies above a node. A coat is known by the node right below it.
+struct NodeAbove {
+  int base = -1;        ///< the coat right above; -1: there is none
+  int matte_base = -1;  ///< the same of what is tilted below it: Lambert lobes get its factor there
+  int once_base = -1;   ///< the same where what changes sides passes it once (glass_coat.h)
+  int part_of = -1;     ///< the coat of whose known lobes this node is one, or some
+
+  bool coated() const { return base >= 0; }
+};
+
+/// What the numbers of a coat are made of.
+template <class R>
+struct CoatGiven {
+  Spectrum<R> ior;
+  Films<R> films;
+  Spectrum<R> held, even, least;
+
+  bool operator==(const CoatGiven&) const = default;
+};
+
+/// What of a coat is alike along all directions.
+template <class R>
+class SolvedCoat {
+ public:
+  void solve(const CoatGiven<R>& given) {
+    given_ = given;
+    numbers_ = {given.ior.v.data(), given.films, given.held, given.even, given.least};
+    mean_through_.reset();
+  }
+  bool solves(const CoatGiven<R>& given) const { return given == given_; }
+
+  const CoatNumbers<R>& numbers() const { return numbers_; }
+  /// The mean over the hemisphere of what it lets through, where nothing is above it. \pre no film
+  const Spectrum<R>& mean_through() {
+    if (!mean_through_) {
+      mean_through_.emplace();
+      for (int j = 0; j < kWavelengths; ++j)
+        (*mean_through_)[j] =
+            numbers_.repeated(j) ? (*mean_through_)[j - 1] : 1 - numbers_.mean_reflected(j);
+    }
+    return *mean_through_;
+  }
+
+ private:
+  CoatGiven<R> given_;
+  CoatNumbers<R> numbers_;
+  std::optional<Spectrum<R>> mean_through_;
+};
+
+/// A coat, where light is seen along one direction.
 template <class R>
 struct CoatAbove {
-  const R* ior = nullptr;  ///< its indices; null: there is none
   CoatKind<R> kind{};
-  CoatNumbers<R> numbers{};
-  int base = -1;        ///< the node right below it
-  int matte_base = -1;  ///< the same of what is tilted below it: Lambert lobes get its factor there
-  int upper = -1;       ///< that of a coat right above this one, if there is one
-  int part_of = -1;     ///< that of the coat of whose known lobes this node is one, or some
+  int upper = -1;            ///< the coat right above this one, if there is one
   const R* layer = nullptr;  ///< the numbers of its `coat`, if it is one
-  bool passed_once = false;  ///< by what changes sides at this lobe (materials/glass_coat.h)
-  bool over_glass = false;   ///< such lobes are all or a part of what lies right below
+  bool over_glass = false;   ///< what passes it once is all or a part of what lies right below
   CoatAlong<R> o{};
   Spectrum<R> through_o{};  ///< what is left of light by all coats that count together
   Spectrum<R> mean{};       ///< of that over the hemisphere, where Lambert lobes lie right below
   Spectrum<R> glass{};      ///< their share, with those below further coats that count together
-
   /// Whether at wavelength j it counts together with those above.
   std::array<bool, kWavelengths> nested{};
-
-  bool filmed(int j) const { return numbers.films[j].there(); }
-  /// |Cosine| of light in it, from that outside all coats.
-  R cosine_inside(int j, R z) const { return ior ? numbers.cosine_inside(j, z) : z; }
 };
 
 /// The same of what takes long to solve for: kept where the next time asks for no other.
@@ -70,12 +109,35 @@ struct SolvedPerNode {
   std::bitset<kMaxNodes> made;
 
   template <class... Asked>
-  void solve(int node, const Asked&... asked) {
-    if (made[node] && solution.of[node].solves(asked...)) return;
-    solution.of[node].solve(asked...);
+  T& solve(int node, const Asked&... asked) {
+    T& its = solution.of[node];
+    if (!made[node]) std::construct_at(&its);
+    if (!made[node] || !its.solves(asked...)) its.solve(asked...);
     made.set(node);
+    return its;
   }
   const T& operator[](int node) const { return solution.of[node]; }
+  T& operator[](int node) { return solution.of[node]; }
+};
+
+/// All coats of a layout.
+template <class R>
+struct CoatTree {
+  PerNode<NodeAbove> above;
+  PerNode<CoatAbove<R>> coats;
+  SolvedPerNode<SolvedCoat<R>> solved;
+
+  /// Whether a coat lies right above that node.
+  bool starts_at(int node) const { return above.of[node].base == node; }
+  const CoatAbove<R>& operator[](int base) const { return coats.of[base]; }
+  CoatAbove<R>& operator[](int base) { return coats.of[base]; }
+  const CoatNumbers<R>& numbers(int base) const { return solved[base].numbers(); }
+  bool filmed(int base, int j) const { return numbers(base).films[j].there(); }
+  /// |Cosine| of light that meets a node, from that outside all coats.
+  R cosine_inside(int node, int j, R z) const {
+    const int base = above.of[node].base;
+    return base >= 0 ? numbers(base).cosine_inside(j, z) : z;
+  }
 };
 
 namespace detail {
@@ -219,25 +281,22 @@ inline CoatKind<R> coat_kind(const Layout& layout, const R* params, int node) {
 
 }  // namespace detail
 
-/// Calls `visit(coat)` for the coats above a node that count together at wavelength j, the nearest
-/// first.
+/// Calls `visit(base)` for a coat, or none, and those above that count together with it at
+/// wavelength j, the nearest first.
 template <class R, class Visit>
-inline void for_each_together(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above, int j,
-                              Visit visit) {
-  for (int at = above.base; at >= 0;) {
-    const CoatAbove<R>& one = coats.of[at];
-    visit(one);
-    at = one.nested[j] ? one.upper : -1;
+inline void for_each_together(const CoatTree<R>& coats, int base, int j, Visit visit) {
+  while (base >= 0) {
+    visit(base);
+    base = coats[base].nested[j] ? coats[base].upper : -1;
   }
 }
 
 /// What they reflect and let through together, along a direction of |cosine| `z`.
 template <class R>
-inline FresnelSplit<R> split_together(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
-                                      int j, R z) {
+inline FresnelSplit<R> split_together(const CoatTree<R>& coats, int base, int j, R z) {
   FresnelSplit<R> all{R(0), R(1)};
-  for_each_together(coats, above, j, [&](const CoatAbove<R>& one) {
-    const FresnelSplit<R> e = one.numbers.split(j, z);
+  for_each_together(coats, base, j, [&](int one) {
+    const FresnelSplit<R> e = coats.numbers(one).split(j, z);
     all.reflected += all.transmitted * e.reflected;
     all.transmitted *= e.transmitted;
   });
@@ -246,9 +305,9 @@ inline FresnelSplit<R> split_together(const PerNode<CoatAbove<R>>& coats, const 
 
 /// Whether one of them has a film, whose E is no sum that glass knows the parts of.
 template <class R>
-inline bool filmed_together(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above, int j) {
+inline bool filmed_together(const CoatTree<R>& coats, int base, int j) {
   bool filmed = false;
-  for_each_together(coats, above, j, [&](const CoatAbove<R>& one) { filmed |= one.filmed(j); });
+  for_each_together(coats, base, j, [&](int one) { filmed |= coats.filmed(one, j); });
   return filmed;
 }
 
@@ -267,59 +326,57 @@ inline int coat_base(const Layout::Node& node) {
 
 /// Whether G of a lobe of a node with `above` is solved for: it is no table's.
 template <class R>
-inline bool is_solved_for(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above) {
-  if (above.part_of >= 0) return above.ior || coats.of[above.part_of].numbers.filmed();
-  return above.ior && (above.upper >= 0 || above.numbers.filmed());
+inline bool is_solved_for(const CoatTree<R>& coats, const NodeAbove& above) {
+  if (above.part_of >= 0) return above.coated() || coats.numbers(above.part_of).filmed();
+  return above.coated() && (coats[above.base].upper >= 0 || coats.numbers(above.base).filmed());
 }
 
-/// The coats that G of a lobe depends on: those of its node, which is `above`, and what the lobe
+/// The coats that G of a lobe depends on: those of its node, which has `above`, and what the lobe
 /// itself, as broad as `broad`, is a part of.
 template <class R>
-inline Coats<R> coats_above(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
+inline Coats<R> coats_above(const CoatTree<R>& coats, const NodeAbove& above,
                             const Broadness<R>& broad = {}) {
   Coats<R> all;
-  if (above.part_of >= 0) all.part = coats.of[above.part_of].numbers.as(broad);
-  for (int at = above.base; at >= 0; at = coats.of[at].upper) all.add(coats.of[at].numbers);
+  if (above.part_of >= 0) all.part = coats.numbers(above.part_of).as(broad);
+  for (int at = above.base; at >= 0; at = coats[at].upper) all.add(coats.numbers(at));
   return all;
 }
 
-/// The coats right above every node, where light is seen along `wo`.
+/// The coats of a layout, where light is seen along `wo`. What they were before, of any layout,
+/// saves time where coats are the same.
 template <class R>
 inline void find_coats(const Layout& layout, const R* params, const Frames<R>& frames, Vec3<R> wo,
-                       PerNode<CoatAbove<R>>& coats) {
+                       CoatTree<R>& coats) {
   const auto nodes = layout.nodes();
-  auto& above = coats.of;
+  auto& above = coats.above.of;
   above[nodes.size() - 1] = {};
   for (int i = int(nodes.size()) - 1; i >= 0; --i) {
     const Layout::Node& node = nodes[i];
     const R* p = params + node.first_param;
     for (int c = 0; c < node.child_count; ++c) above[node.children[c]] = above[i];
     const int a = node.children[0], b = node.children[1];
-    const auto coated = [&](int base, int coat, const R* ior, const Films<R>& films,
+    const auto coated = [&](int base, int lobes, const R* ior, const Films<R>& films,
                             const R* layer) {
       if (std::all_of(ior, ior + kWavelengths, [](R n) { return n == 1; }) &&
           std::none_of(films.begin(), films.end(), [](const Film<R>& f) { return f.there(); }))
         return;
-      CoatAbove<R>& below = above[base];
-      below = {.ior = ior, .kind = detail::coat_kind(layout, params, coat)};
-      below.base = below.matte_base = base;
-      below.layer = layer;
-      const CoatAbove<R>* upper = above[i].ior ? &above[above[i].base] : nullptr;
-      Spectrum<R> least;
-      if (upper) {
-        below.upper = upper->base;
-        for (int j = 0; j < kWavelengths; ++j)
-          if (upper->numbers.eta[j] > 1) least[j] = upper->numbers.least_below(j);
+      const int upper = above[i].base;
+      above[base] = {.base = base, .matte_base = base};
+      CoatAbove<R>& coat = coats[base] = {
+          .kind = detail::coat_kind(layout, params, lobes), .upper = upper, .layer = layer};
+      CoatGiven<R> given{{}, films, coat.kind.held, coat.kind.even, {}};
+      std::copy_n(ior, kWavelengths, given.ior.v.begin());
+      for (int j = 0; upper >= 0 && j < kWavelengths; ++j)
+        if (const CoatNumbers<R>& over = coats.numbers(upper); over.eta[j] > 1)
+          given.least[j] = over.least_below(j);
+      const CoatNumbers<R>& numbers = coats.solved.solve(base, given).numbers();
+      coat.o = {numbers, std::abs(frames.seen(i, wo).z)};
+      coat.through_o = coat.o.through;
+      for (int j = 0; upper >= 0 && j < kWavelengths; ++j) {
+        coat.nested[j] = numbers.eta[j] > 1 && coats.numbers(upper).eta[j] > 1;
+        if (coat.nested[j]) coat.through_o[j] *= coats[upper].through_o[j];
       }
-      below.numbers = {ior, films, below.kind.held, below.kind.even, least};
-      if (upper)
-        for (int j = 0; j < kWavelengths; ++j)
-          below.nested[j] = below.numbers.eta[j] > 1 && upper->numbers.eta[j] > 1;
-      below.o = {below.numbers, std::abs(frames.seen(i, wo).z)};
-      below.through_o = below.o.through;
-      for (int j = 0; j < kWavelengths; ++j)
-        if (below.nested[j]) below.through_o[j] *= upper->through_o[j];
-      if (below.kind.known) above[coat].part_of = base;
+      if (coat.kind.known) above[lobes].part_of = base;
     };
     if (node.lobe == Lobe::FresnelMix)
       coated(a, b, p, {}, nullptr);
@@ -360,18 +417,18 @@ struct OverGlass {
 /// The same as models are asked for it.
 template <class R>
 struct CoatsOnGlass {
-  const PerNode<CoatAbove<R>>& coats;
-  const CoatAbove<R>& above;
+  const CoatTree<R>& coats;
+  int base;
   const std::array<CoatOnGlass<R>, kWavelengths>& law;
 
-  FresnelSplit<R> split(int j, R z) const { return split_together(coats, above, j, z); }
-  bool filmed(int j) const { return filmed_together(coats, above, j); }
+  FresnelSplit<R> split(int j, R z) const { return split_together(coats, base, j, z); }
+  bool filmed(int j) const { return filmed_together(coats, base, j); }
   /// What their layers let through along a direction of |cosine| `z` outside.
   R layers(int j, R z) const {
     R through = 1;
-    for_each_together(coats, above, j, [&](const CoatAbove<R>& one) {
-      if (one.layer)
-        through *= detail::layer_transmittance(one.layer, j, one.numbers.cosine_inside(j, z));
+    for_each_together(coats, base, j, [&](int one) {
+      if (const R* layer = coats[one].layer)
+        through *= detail::layer_transmittance(layer, j, coats.numbers(one).cosine_inside(j, z));
     });
     return through;
   }
@@ -381,26 +438,25 @@ namespace detail {
 
 /// At wavelength j.
 template <class R>
-inline CoatOnGlass<R> coat_on_glass(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
-                                    int j) {
+inline CoatOnGlass<R> coat_on_glass(const CoatTree<R>& coats, int base, int j) {
   CoatOnGlass<R> on;
-  if (!(above.numbers.eta[j] > 1)) return on;
+  if (!(coats.numbers(base).eta[j] > 1)) return on;
   // F is that of the uppermost; of others little is left below it (materials/coat.h).
-  const CoatAbove<R>* top = &above;
+  int top = base;
   R through = 1, before = 1;  // along the surface, with and without the uppermost
-  for_each_together(coats, above, j, [&](const CoatAbove<R>& one) {
-    top = &one;
+  for_each_together(coats, base, j, [&](int one) {
+    top = one;
     before = through;
-    through *= one.numbers.split(j, R(0)).transmitted;
+    through *= coats.numbers(one).split(j, R(0)).transmitted;
   });
-  on.eta = top->numbers.eta[j];
-  on.steep = top->numbers.shape[j].steep * before;
-  on.normal = split_together(coats, above, j, R(1)).transmitted;
-  if ((top == &above && above.kind.polished) || filmed_together(coats, above, j)) return on;
+  on.eta = coats.numbers(top).eta[j];
+  on.steep = coats.numbers(top).shape[j].steep * before;
+  on.normal = split_together(coats, base, j, R(1)).transmitted;
+  if ((top == base && coats[base].kind.polished) || filmed_together(coats, base, j)) return on;
   for (int m = 0; m < kRest; ++m) {
     const R z = R(kRestCosine[m]);
     on.rest[m] =
-        split_together(coats, above, j, z).reflected - on.steep * fresnel_dielectric(z, on.eta);
+        split_together(coats, base, j, z).reflected - on.steep * fresnel_dielectric(z, on.eta);
   }
   return on;
 }
@@ -410,13 +466,13 @@ inline CoatOnGlass<R> coat_on_glass(const PerNode<CoatAbove<R>>& coats, const Co
 /// Calls `visit(node, weight)` for what lies right below a coat, the child `base` of its combiner,
 /// and is no coat of index 1.
 template <class R, class Visit>
-inline void for_each_below(const Layout& layout, const R* params,
-                           const PerNode<CoatAbove<R>>& coats, int base, Visit visit) {
+inline void for_each_below(const Layout& layout, const R* params, const CoatTree<R>& coats,
+                           int base, Visit visit) {
   PerNode<Spectrum<R>> weights;
   weights.of[base] = Spectrum<R>(R(1));
   const auto part = [&](const auto& self, int node, const Spectrum<R>& weight) -> void {
     const int below = coat_base(layout.nodes()[node]);
-    if (below < 0 || coats.of[below].base == below) return visit(node, weight);
+    if (below < 0 || coats.starts_at(below)) return visit(node, weight);
     weights.of[below] = weight;
     detail::for_each_part(layout, params, below, weights,
                           [&](int n, const Spectrum<R>& w) { self(self, n, w); });
@@ -428,29 +484,30 @@ inline void for_each_below(const Layout& layout, const R* params,
 /// Which coats are over glass, and which lobes get the weight of glass: those of which
 /// `knows(lobe, coats)` is true.
 template <class R, class Knows>
-inline void find_glass(const Layout& layout, const R* params, PerNode<CoatAbove<R>>& coats,
+inline void find_glass(const Layout& layout, const R* params, CoatTree<R>& coats,
                        PerNode<OverGlass<R>>& glass, const Knows& knows) {
   for (int base = 0; base < int(layout.nodes().size()); ++base) {
-    CoatAbove<R>& coat = coats.of[base];
-    if (coat.base != base) continue;
+    if (!coats.starts_at(base)) continue;
+    CoatAbove<R>& coat = coats[base];
     bool asked = false;
     for_each_below(layout, params, coats, base, [&](int node, const Spectrum<R>& weight) {
       const Layout::Node& n = layout.nodes()[node];
       const int below = coat_base(n);
       if (below >= 0) {
         for (int j = 0; j < kWavelengths; ++j)
-          if (coats.of[below].nested[j]) coat.glass[j] += weight[j] * coats.of[below].glass[j];
+          if (coats[below].nested[j]) coat.glass[j] += weight[j] * coats[below].glass[j];
         return;
       }
       if (!(traits(n.lobe) & Transmits) || !(traits(n.lobe) & Reflects)) return;
       auto& law = glass.of[base].law;
       for (int j = 0; !asked && j < kWavelengths; ++j)
-        law[j] = coat.numbers.repeated(j) && j > 0 && coat.upper < 0
+        law[j] = coats.numbers(base).repeated(j) && j > 0 && coat.upper < 0
                      ? law[j - 1]
-                     : detail::coat_on_glass(coats, coat, j);
+                     : detail::coat_on_glass(coats, base, j);
       asked = true;
-      if (!knows(node, CoatsOnGlass<R>{coats, coat, law})) return;
-      coats.of[node].passed_once = coat.over_glass = true;
+      if (!knows(node, CoatsOnGlass<R>{coats, base, law})) return;
+      coats.above.of[node].once_base = base;
+      coat.over_glass = true;
       for (int j = 0; j < kWavelengths; ++j)
         if (law[j].counts()) coat.glass[j] += weight[j];
     });

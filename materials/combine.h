@@ -109,12 +109,13 @@ struct NodeWeight {
 namespace detail {
 
 template <class R>
-inline void weigh_fresnel_mix(const CoatAbove<R>& mix, Vec3<R> wo, Vec3<R> wi,
-                              const NodeWeight<R>& w, NodeWeight<R>& base, NodeWeight<R>& coat) {
-  const CoatAlong<R>&o = mix.o, i(mix.numbers, std::abs(wi.z));
+inline void weigh_fresnel_mix(const CoatAbove<R>& mix, const CoatNumbers<R>& numbers, Vec3<R> wo,
+                              Vec3<R> wi, const NodeWeight<R>& w, NodeWeight<R>& base,
+                              NodeWeight<R>& coat) {
+  const CoatAlong<R>&o = mix.o, i(numbers, std::abs(wi.z));
   Spectrum<R> reflects;
   for (int j = 0; j < kWavelengths; ++j) {
-    const R eta = mix.numbers.eta[j];
+    const R eta = numbers.eta[j];
     base.bare[j] = mix.nested[j] ? w.bare[j] : w.other[j];
     base.through_i[j] = mix.nested[j] ? w.through_i[j] * i.through[j] : i.through[j];
     base.other[j] = w.other[j] * std::min(o.through[j], i.through[j]);
@@ -152,19 +153,17 @@ struct LayerLeaves {
 /// Factors for the pair of directions, for every node.
 template <class R>
 inline void weigh(const Layout& layout, const R* params, const Frames<R>& frames,
-                  const PerNode<CoatAbove<R>>& coats, Vec3<R> wo, Vec3<R> wi, Mode mode,
+                  const CoatTree<R>& coats, Vec3<R> wo, Vec3<R> wi, Mode mode,
                   PerNode<NodeWeight<R>>& weights) {
   const auto nodes = layout.nodes();
-  const auto under_coat = [&](int i, int base, const R* ior, NodeWeight<R>& of_base,
-                              NodeWeight<R>& of_coat) {
-    const CoatAbove<R>& coat = coats.of[base];
-    if (coat.ior != ior) {  // there is none
+  const auto under_coat = [&](int i, int base, NodeWeight<R>& of_base, NodeWeight<R>& of_coat) {
+    if (!coats.starts_at(base)) {  // its index is 1
       of_base = weights.of[i];
       of_coat = weights.of[i] * Spectrum<R>();
       return;
     }
-    detail::weigh_fresnel_mix(coat, frames.seen(i, wo), frames.seen(i, wi), weights.of[i], of_base,
-                              of_coat);
+    detail::weigh_fresnel_mix(coats[base], coats.numbers(base), frames.seen(i, wo),
+                              frames.seen(i, wi), weights.of[i], of_base, of_coat);
   };
   auto& w = weights.of;
   w[nodes.size() - 1] = NodeWeight<R>{};
@@ -190,13 +189,13 @@ inline void weigh(const Layout& layout, const R* params, const Frames<R>& frames
       }
       case Lobe::FresnelMix:
       case Lobe::FilmMix:
-        under_coat(i, a, p, w[a], w[b]);
+        under_coat(i, a, w[a], w[b]);
         break;
       case Lobe::Coat:
-        under_coat(i, b, p + 1 + kWavelengths, w[b], w[a]);
+        under_coat(i, b, w[b], w[a]);
         for (int j = 0; j < kWavelengths; ++j) {
-          const R along_o = detail::layer_transmittance(p, j, coats.of[b].cosine_inside(j, cos_o)),
-                  along_i = detail::layer_transmittance(p, j, coats.of[b].cosine_inside(j, cos_i));
+          const R along_o = detail::layer_transmittance(p, j, coats.cosine_inside(b, j, cos_o)),
+                  along_i = detail::layer_transmittance(p, j, coats.cosine_inside(b, j, cos_i));
           w[b].other[j] *= along_o * along_i;
           w[b].lambert[j] *= along_o * along_i;
           w[b].bare[j] *= along_o * along_i;
@@ -211,22 +210,22 @@ inline void weigh(const Layout& layout, const R* params, const Frames<R>& frames
 
 /// The factor for interfaces that coats are passed by once, from those of their node.
 template <class R>
-inline Spectrum<R> glass_weight(const NodeWeight<R>& w, const CoatAbove<R>& above,
+inline Spectrum<R> glass_weight(const NodeWeight<R>& w, const CoatAbove<R>& coat,
                                 const OverGlass<R>& over, Vec3<R> wo, Vec3<R> wi) {
   Spectrum<R> f = w.other;
   for (int j = 0; j < kWavelengths; ++j)
     if (over.law[j].counts())
-      f[j] = w.crossing[j] * glass_factor(wo.z > 0, wi.z > 0, above.through_o[j], w.through_i[j],
+      f[j] = w.crossing[j] * glass_factor(wo.z > 0, wi.z > 0, coat.through_o[j], w.through_i[j],
                                           over.law[j].normal);
   return f;
 }
 
 /// The factor for deltas that reflect, from that of their node.
 template <class R>
-inline Spectrum<R> delta_weight(const Spectrum<R>& other, const PerNode<CoatAbove<R>>& coats,
-                                const CoatAbove<R>& above, R cosine) {
+inline Spectrum<R> delta_weight(const Spectrum<R>& other, const CoatTree<R>& coats,
+                                const NodeAbove& above, R cosine) {
   if (above.part_of < 0) return other;
-  const CoatNumbers<R>& coat = coats.of[above.part_of].numbers;
+  const CoatNumbers<R>& coat = coats.numbers(above.part_of);
   Spectrum<R> f = other;
   CoatDirection<R> along(std::min(std::abs(cosine), R(1)));
   for (int j = 0; j < kWavelengths; ++j)
@@ -236,37 +235,35 @@ inline Spectrum<R> delta_weight(const Spectrum<R>& other, const PerNode<CoatAbov
 
 /// Whether at wavelength j the coats above a known lobe count together, with what it is a part of.
 template <class R>
-inline bool counts_together(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above, int j) {
-  return above.ior && above.numbers.eta[j] > 1 &&
-         (above.part_of < 0 || coats.of[above.part_of].numbers.eta[j] > 1);
+inline bool counts_together(const CoatTree<R>& coats, const NodeAbove& above, int j) {
+  return above.coated() && coats.numbers(above.base).eta[j] > 1 &&
+         (above.part_of < 0 || coats.numbers(above.part_of).eta[j] > 1);
 }
 
 /// G^2 of a lobe below several coats, or as a part of a lower one, as the product of what it is for
 /// each alone, films as bare interfaces: of first order in what they vary,
 /// which below the first coat is little (materials/coat.h).
 template <class R>
-inline R squared_of_each(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
+inline R squared_of_each(const CoatTree<R>& coats, const NodeAbove& above,
                          const CoatedLobe<R>& lobe, int j) {
   R squared = 1;
   if (above.part_of >= 0) {
-    const CoatNumbers<R>& coat = coats.of[above.part_of].numbers;
+    const CoatNumbers<R>& coat = coats.numbers(above.part_of);
     squared = lobe.as_lower_coat(coat.bare(j), CoatShape<R>(lobe.broad(), coat.mean[j]),
                                  coat.of(j, lobe.broad()));
   }
-  for (int at = above.base; at >= 0;) {
-    const CoatAbove<R>& one = coats.of[at];
-    const R bare = one.numbers.bare(j);
-    squared *= lobe.below(bare, one.numbers.shape[j],
-                          one.numbers.shape[j].split(lobe.z, bare).transmitted);
-    at = one.nested[j] ? one.upper : -1;
-  }
+  for_each_together(coats, above.base, j, [&](int base) {
+    const CoatShape<R>& shape = coats.numbers(base).shape[j];
+    const R bare = coats.numbers(base).bare(j);
+    squared *= lobe.below(bare, shape, shape.split(lobe.z, bare).transmitted);
+  });
   return squared;
 }
 
 /// The same, from what is solved for round lobes: for stretched ones, as much more as the product
 /// is of them.
 template <class R>
-inline R squared_as_solved(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
+inline R squared_as_solved(const CoatTree<R>& coats, const NodeAbove& above,
                            const UnderCoats<R>& under, const typename UnderCoats<R>::Along& along,
                            const CoatedLobe<R>& lobe, int j, R through, R reflected) {
   const R solved = under.squared(j, along, through, reflected);
@@ -279,11 +276,11 @@ inline R squared_as_solved(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R
 /// of one; 1 where no more is known. `through` is what the coats above that count together let
 /// through there, `under` what is solved for the lobe (is_solved_for).
 template <class R>
-inline Spectrum<R> coated_scaling(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
+inline Spectrum<R> coated_scaling(const CoatTree<R>& coats, const NodeAbove& above,
                                   const UnderCoats<R>* under, const CoatedLobe<R>& lobe,
                                   const Spectrum<R>& through) {
   const bool part = above.part_of >= 0;
-  const CoatNumbers<R>& coat = part ? coats.of[above.part_of].numbers : above.numbers;
+  const CoatNumbers<R>& coat = coats.numbers(part ? above.part_of : above.base);
   typename UnderCoats<R>::Along along;
   if (under) along = under->along(lobe.z);
   Spectrum<R> g{R(1)};
@@ -295,7 +292,7 @@ inline Spectrum<R> coated_scaling(const PerNode<CoatAbove<R>>& coats, const Coat
     const R eta = coat.eta[j];
     const bool together = counts_together(coats, above, j);
     known = part ? eta > 1 : together;
-    solved = coat.films[j].there() || (part ? together : above.nested[j]);
+    solved = coat.films[j].there() || (part ? together : coats[above.base].nested[j]);
     if (!known) continue;
     if (was_known && solved == was_solved && coat.repeated(j) && (!solved || under->repeated(j))) {
       g[j] = g[j - 1];
@@ -314,7 +311,7 @@ inline Spectrum<R> coated_scaling(const PerNode<CoatAbove<R>>& coats, const Coat
 
 /// The same of `glossy_refraction`, whose lobe is outside in a direction for each index.
 template <class R, class Model>
-inline Spectrum<R> bent_scaling(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
+inline Spectrum<R> bent_scaling(const CoatTree<R>& coats, const NodeAbove& above,
                                 const UnderCoats<R>* under, const Model& model, Vec3<R> w) {
   Spectrum<R> g, of_index;
   for_each_index(model.numbers, [&](int j, bool repeated) {
@@ -322,7 +319,7 @@ inline Spectrum<R> bent_scaling(const PerNode<CoatAbove<R>>& coats, const CoatAb
       const CoatedLobe<R> lobe = model.coated(w, j);
       Spectrum<R> through;
       for (int k = 0; k < kWavelengths; ++k)
-        through[k] = split_together(coats, above, k, lobe.z).transmitted;
+        through[k] = split_together(coats, above.base, k, lobe.z).transmitted;
       of_index = coated_scaling(coats, above, under, lobe, through);
     }
     g[j] = of_index[j];
@@ -333,7 +330,7 @@ inline Spectrum<R> bent_scaling(const PerNode<CoatAbove<R>>& coats, const CoatAb
 /// The factor for such a lobe from `g` along both directions and those of its node: `counted` where
 /// the coats above count together, and `other`.
 template <class R>
-inline Spectrum<R> coated_weight(const PerNode<CoatAbove<R>>& coats, const CoatAbove<R>& above,
+inline Spectrum<R> coated_weight(const CoatTree<R>& coats, const NodeAbove& above,
                                  const Spectrum<R>& counted, const Spectrum<R>& other,
                                  const Spectrum<R>& g_o, const Spectrum<R>& g_i) {
   Spectrum<R> f;
@@ -346,23 +343,23 @@ inline Spectrum<R> coated_weight(const PerNode<CoatAbove<R>>& coats, const CoatA
 /// where `weigh` is 0 for every wi. `coats` are null where there are none.
 template <class R>
 inline void weigh_for_choice(const Layout& layout, const R* params, const Frames<R>& frames,
-                             Vec3<R> wo, const std::type_identity_t<PerNode<CoatAbove<R>>>* coats,
+                             Vec3<R> wo, const std::type_identity_t<CoatTree<R>>* coats,
                              PerNode<Spectrum<R>>& weights) {
   const auto split = [&](const R* ior, int base, R cos_o, Spectrum<R>& reflected,
                          Spectrum<R>& transmitted) {
-    const CoatAbove<R>* above = coats ? &coats->of[base] : nullptr;
-    if (!above || above->ior != ior) {
+    if (!coats || !coats->starts_at(base)) {
       const InterfaceSplits<R> s(ior, Vec3<R>{0, 0, 1}, cos_o);
       reflected = s.reflected;
       transmitted = s.transmitted;
       return;
     }
-    reflected = above->o.reflected;
-    transmitted = above->o.through;
+    const CoatAbove<R>& coat = (*coats)[base];
+    reflected = coat.o.reflected;
+    transmitted = coat.o.through;
     // Of light inside, glass gets all.
     if (wo.z > 0) return;
     for (int j = 0; j < kWavelengths; ++j) {
-      const R glass = above->numbers.eta[j] > 1 ? above->glass[j] : R(0);
+      const R glass = coats->numbers(base).eta[j] > 1 ? coat.glass[j] : R(0);
       reflected[j] *= 1 - glass;
       transmitted[j] += glass * (1 - transmitted[j]);
     }
@@ -400,9 +397,9 @@ inline void weigh_for_choice(const Layout& layout, const R* params, const Frames
         w[a] = w[i] * reflected;
         w[b] = w[i] * transmitted;
         // Light inside that stays there never meets the layer.
-        if (wo.z < 0 && coats && coats->of[b].over_glass) break;
+        if (wo.z < 0 && coats && coats->starts_at(b) && (*coats)[b].over_glass) break;
         for (int j = 0; j < kWavelengths; ++j) {
-          const R inside = coats ? coats->of[b].cosine_inside(j, cos_o) : cos_o;
+          const R inside = coats ? coats->cosine_inside(b, j, cos_o) : cos_o;
           w[b][j] *=
               detail::layer_transmittance(p, j, inside) * detail::layer_transmittance(p, j, R(1));
         }
