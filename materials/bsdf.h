@@ -29,7 +29,11 @@
 ///   normal is held back by `wo` in both modes (materials/frames.h).
 /// * Numbers out of range (negative or NaN colour, roughness, ...) are clamped into range.
 
+#include <algorithm>
+#include <array>
 #include <bitset>
+#include <cassert>
+#include <cstring>
 #include <optional>
 #include <tuple>
 
@@ -51,6 +55,31 @@ struct BsdfSample {
   Spectrum<R> pdf;  ///< element 0 > 0
   bool specular = false;
   bool transmitted = false;  ///< wi and wo are on different sides
+};
+
+/// What of a node's model is alike along all directions, and the numbers that it is of.
+template <class R, class Solved>
+class SolvedModel {
+ public:
+  template <class Model>
+  void solve(const Layout::Node& node, const R* params, const Model& model) {
+    assert(node.param_count <= kMostNumbers);
+    lobe_ = node.lobe;
+    std::copy_n(params + node.first_param, node.param_count, numbers_.begin());
+    solved_ = model.solved();
+  }
+  template <class Model>
+  bool solves(const Layout::Node& node, const R* params, const Model&) const {
+    return node.lobe == lobe_ && std::memcmp(params + node.first_param, numbers_.data(),
+                                             node.param_count * sizeof(R)) == 0;
+  }
+  const Solved& get() const { return solved_; }
+
+ private:
+  static constexpr int kMostNumbers = 6 * kWavelengths;  ///< `film_dielectric` has 43
+  Lobe lobe_{};
+  std::array<R, kMostNumbers> numbers_;
+  Solved solved_;
 };
 
 /// Of float and double; materials/bsdf_definitions.h for other numbers.
@@ -77,7 +106,11 @@ class Bsdf {
     std::bitset<kMaxNodes> solved;        ///< for which nodes `under` is asked
     SolvedPerNode<MeanThrough<R>> means;  ///< of Lambert lobes that have coats above
     PerNode<Spectrum<R>> scaling;         ///< g along `wo`, of lobes known under coats or in one
-    /// What models with a function `seen` said of `wo`.
+    /// What models with a function `solved` said, and of `wo`.
+    std::tuple<SolvedPerNode<SolvedModel<R, FacetsSolved<R>>>,
+               SolvedPerNode<SolvedModel<R, typename Dielectric<R>::Solved>>,
+               SolvedPerNode<SolvedModel<R, typename FilmDielectric<R>::Solved>>>
+        models;
     std::tuple<PerNode<FacetsSeen<R>>, PerNode<typename Dielectric<R>::Seen>,
                PerNode<typename FilmDielectric<R>::Seen>>
         seen;

@@ -39,7 +39,7 @@ template <class M>
 concept CanBeSmooth = requires(const M& m) {
   m.evaluate({}, {}, Mode{});
 }
-|| requires(const M& m) { m.seen({}); };
+|| requires(const M& m) { m.seen({}, m.solved()); };
 
 /// Whether a coat's factor for Lambert lobes (materials/combine.h) is the model's.
 template <class R, class M>
@@ -56,16 +56,24 @@ inline bool knows_coats(const M& model, const CoatsOnGlass<R>& coats) {
     return false;
 }
 
-/// Remembers what the model of node `i` is along `wo`, in its frame, if it is more than its
+/// Remembers what the model of node `i` is, and along `wo`, in its frame, if it is more than its
 /// numbers.
 template <class R, class M>
-inline void see(const M& model, Vec3<R> wo, int i, typename Bsdf<R>::Choice& choice) {
-  if constexpr (requires { model.seen(wo); })
-    std::get<PerNode<decltype(model.seen(wo))>>(choice.seen).of[i] = model.seen(wo);
+inline void see(const M& model, const Layout& layout, const R* params, Vec3<R> wo, int i,
+                typename Bsdf<R>::Choice& choice) {
+  if constexpr (requires { model.solved(); }) {
+    using Solved = decltype(model.solved());
+    using Seen = decltype(model.seen(wo, Solved()));
+    const Solved& solved = std::get<SolvedPerNode<SolvedModel<R, Solved>>>(choice.models)
+                               .solve(i, layout.nodes()[i], params, model)
+                               .get();
+    std::get<PerNode<Seen>>(choice.seen).of[i] = model.seen(wo, solved);
+  }
 }
 template <class R, class M>
-inline const auto& seen(const M& model, Vec3<R> wo, int i, const typename Bsdf<R>::Choice& choice) {
-  return std::get<PerNode<decltype(model.seen(wo))>>(choice.seen).of[i];
+inline const auto& seen(const M& model, int i, const typename Bsdf<R>::Choice& choice) {
+  using Seen = decltype(model.seen({}, model.solved()));
+  return std::get<PerNode<Seen>>(choice.seen).of[i];
 }
 
 /// What the model of node `i` gives and takes, as `choice` has seen it. \pre CanBeSmooth
@@ -76,8 +84,8 @@ inline Lobes<R> evaluate(const M& model, Vec3<R> wo, Vec3<R> wi, Mode mode, int 
   if (share == 0) return {};
   wo = choice.frames.seen(i, wo), wi = choice.frames.seen(i, wi);
   Lobes<R> l;
-  if constexpr (requires { model.seen(wo); })
-    l = model.evaluate(wo, wi, mode, seen<R>(model, wo, i, choice));
+  if constexpr (requires { model.solved(); })
+    l = model.evaluate(wo, wi, mode, seen<R>(model, i, choice));
   else
     l = model.evaluate(wo, wi, mode);
   if (share != 1) l.f *= share;
@@ -88,8 +96,8 @@ inline bool sample(const M& model, Vec3<R> wo, R u_lobe, R u1, R u2, int i,
                    const typename Bsdf<R>::Choice& choice, Vec3<R>& wi) {
   wo = choice.frames.seen(i, wo);
   bool drawn;
-  if constexpr (requires { model.seen(wo); })
-    drawn = model.sample(wo, u_lobe, u1, u2, seen<R>(model, wo, i, choice), wi);
+  if constexpr (requires { model.solved(); })
+    drawn = model.sample(wo, u_lobe, u1, u2, seen<R>(model, i, choice), wi);
   else
     drawn = model.sample(wo, u_lobe, u1, u2, wi);
   wi = choice.frames.unseen(i, wi);
@@ -209,7 +217,7 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
   const auto estimate = [&](int i) {
     const Vec3<R> w = choice.frames.seen(i, wo);
     return with_model(i, Spectrum<R>(), [&](const auto& model) {
-      if (!detail::is_specular(model)) detail::see<R>(model, w, i, choice);
+      if (!detail::is_specular(model)) detail::see<R>(model, *layout_, params_, w, i, choice);
       return model.estimate(w);
     });
   };

@@ -94,12 +94,14 @@ struct RoughMetal {
            reflectance(R(0.942895803885)) * R(0.271013826863);
   }
 
-  FacetsSeen<R> seen(Vec3<R> wo) const {
-    FacetsSeen<R> s = rough.seen(wo);
-    const Spectrum<R> mean = mean_reflectance();
-    for (int j = 0; j < kWavelengths; ++j)
-      s.further[j] = multiple_fresnel(std::min(mean[j], R(1)), s.mean);
-    return s;
+  FacetsSolved<R> solved() const {
+    return rough.solved([this](R loss) {
+      return Spectrum<R>::map([loss](R f) { return multiple_fresnel(std::min(f, R(1)), loss); },
+                              mean_reflectance());
+    });
+  }
+  FacetsSeen<R> seen(Vec3<R> wo, const FacetsSolved<R>& solved) const {
+    return rough.seen(wo, solved);
   }
 
   Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode, const FacetsSeen<R>& seen) const {

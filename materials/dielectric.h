@@ -53,20 +53,26 @@ struct BareFace {
   Law law(int, R, Shared&) const { return {}; }
 };
 
-/// Facets of an interface along one direction, for each wavelength: what is found once for all that
-/// it meets.
+/// What of facets of an interface is alike along all directions, for each wavelength; [0] of
+/// directions outside, [1] inside.
 template <class R, class Face>
-struct InterfaceSeen {
+struct InterfaceSolved {
   std::array<typename Face::Law, kWavelengths> law;
-  R shadow = 0;                       ///< |w.z| Lambda(w)
-  BounceSampling<R> bounces = {};     ///< how directions of further ones are drawn
-  Spectrum<R> lost;                   ///< by the first bounce
-  Spectrum<R> transmit;               ///< share of that which goes to the far side
-  Spectrum<R> mean_here, mean_there;  ///< of what the two sides lose over their hemispheres
+  BounceSampling<R> bounces = {};  ///< how directions of further ones are drawn
+  Spectrum<R> mean[2];             ///< over the hemisphere, what is lost by the first bounce
+  Spectrum<R> transmit[2];         ///< share of that which goes to the far side
+};
+
+/// The same facets along one direction: what is found once for all that it meets.
+template <class R, class Face>
+struct InterfaceSeen : InterfaceSolved<R, Face> {
+  R shadow = 0;      ///< |w.z| Lambda(w)
+  Spectrum<R> lost;  ///< by the first bounce
 };
 
 template <class R, template <class> class Distribution, class Face = BareFace<R>>
 struct RoughInterface {
+  using Solved = InterfaceSolved<R, Face>;
   using Seen = InterfaceSeen<R, Face>;
 
   const R* ior;
@@ -137,24 +143,31 @@ struct RoughInterface {
     return back;
   }
 
-  Seen seen(Vec3<R> wo) const {
-    Seen s;
-    s.shadow = facets.shadow(wo);
+  Solved solved() const {
+    Solved s;
     s.bounces = BounceSampling<R>(facets.ax * facets.ay);
-    typename Face::Loss here, mean_here, mean_there;
+    typename Face::Loss outside, inside;
     typename Face::Shared shared;
     for (int j = 0; j < kWavelengths; ++j) {
-      const R eta = rough_eta(j, wo);
+      const R eta = rough_eta(j, Vec3<R>{0, 0, 1});
       if (!same_index(j)) {
-        here = face.loss(facets, eta, wo);
-        mean_here = face.mean_loss(facets, eta);
-        mean_there = face.mean_loss(facets, 1 / eta);
+        outside = face.mean_loss(facets, eta);
+        inside = face.mean_loss(facets, 1 / eta);
       }
-      s.law[j] = face.law(j, wo.z > 0 ? eta : 1 / eta, shared);
-      s.lost[j] = s.law[j].of(here);
-      s.mean_here[j] = s.law[j].of(mean_here);
-      s.mean_there[j] = s.law[j].of(mean_there);
-      s.transmit[j] = transmitted_share(s.mean_here[j], s.mean_there[j], eta);
+      s.law[j] = face.law(j, eta, shared);
+      const R out = s.mean[0][j] = s.law[j].of(outside), in = s.mean[1][j] = s.law[j].of(inside);
+      s.transmit[0][j] = transmitted_share(out, in, eta);
+      s.transmit[1][j] = transmitted_share(in, out, 1 / eta);
+    }
+    return s;
+  }
+
+  Seen seen(Vec3<R> wo, const Solved& solved) const {
+    Seen s{solved, facets.shadow(wo), {}};
+    typename Face::Loss loss;
+    for (int j = 0; j < kWavelengths; ++j) {
+      if (!same_index(j)) loss = face.loss(facets, rough_eta(j, wo), wo);
+      s.lost[j] = s.law[j].of(loss);
     }
     return s;
   }
@@ -164,7 +177,7 @@ struct RoughInterface {
     Lobes<R> out = reflects ? evaluate_reflection(wo, wi, seen.shadow)
                             : evaluate_transmission(wo, wi, seen.shadow, mode);
     const R pdf = seen.bounces.pdf(std::abs(wi.z));
-    const Spectrum<R>& mean = reflects ? seen.mean_here : seen.mean_there;
+    const Spectrum<R>&mean = seen.mean[wi.z < 0], &transmit = seen.transmit[wo.z < 0];
     R eta = 1;
     typename Face::Loss spread;  // by further bounces along wi
     for (int j = 0; j < kWavelengths; ++j) {
@@ -173,7 +186,7 @@ struct RoughInterface {
         spread = face.loss(facets, reflects ? eta : 1 / eta, wi);
       }
       const R shape = seen.law[j].of(spread) / (kPi<R> * mean[j]);
-      const FresnelSplit<R> further{1 - seen.transmit[j], seen.transmit[j]};
+      const FresnelSplit<R> further{1 - transmit[j], transmit[j]};
       const R f =
           reflects ? further.reflected * reflected[j] : further.transmitted * transmitted[j];
       const R scale = reflects || mode == Mode::Importance ? R(1) : 1 / (eta * eta);
@@ -189,7 +202,8 @@ struct RoughInterface {
     const Vec3<R> up = to_upper(wo, wo);
     const R lost = seen.lost[0];
     if (u_lobe < lost) {
-      const Choice c = choose(0, {1 - seen.transmit[0], seen.transmit[0]});
+      const R transmit = seen.transmit[wo.z < 0][0];
+      const Choice c = choose(0, {1 - transmit, transmit});
       if (!(c.reflect + c.transmit > 0)) return false;
       wi = seen.bounces.sample(u1, u2);
       if (!(wi.z > 0)) return false;

@@ -33,13 +33,19 @@ struct HalfVector {
   }
 };
 
-/// Facets that are mirrors along one direction: what is found once for all that it meets.
+/// What of facets that are mirrors is alike along all directions.
 template <class R>
-struct FacetsSeen {
-  R shadow = 0;          ///< |w.z| Lambda(w)
-  R loss = 0, mean = 0;  ///< to further bounces: along the direction, and over the hemisphere
+struct FacetsSolved {
+  R mean = 0;                      ///< over the hemisphere, what is lost to further bounces
   BounceSampling<R> bounces = {};  ///< how directions of these are drawn
   Spectrum<R> further = {};        ///< F of these bounces together
+};
+
+/// The same facets along one direction: what is found once for all that it meets.
+template <class R>
+struct FacetsSeen : FacetsSolved<R> {
+  R shadow = 0;  ///< |w.z| Lambda(w)
+  R loss = 0;    ///< to further bounces
 };
 
 /// Reflection by facets, alike for every wavelength but for Fresnel's factor.
@@ -64,13 +70,16 @@ struct RoughReflection {
     R cos_h = 0;  ///< at the facet of the single bounce
   };
 
-  /// All but `further`.
-  FacetsSeen<R> seen(Vec3<R> wo) const {
-    const FacetLoss<R> l = loss();
+  /// `further(mean)` is F of further bounces, `mean` being that of the loss.
+  template <class Further>
+  FacetsSolved<R> solved(const Further& further) const {
     // No distribution loses less: where facets are all but flat, the spline may swing below it.
-    const R area = facets.ax * facets.ay, mean = std::max(l.mean(), R(0.02) * mean_unit(area));
+    const R area = facets.ax * facets.ay, mean = std::max(loss().mean(), R(0.02) * mean_unit(area));
+    return {mean, BounceSampling<R>(area), further(mean)};
+  }
+  FacetsSeen<R> seen(Vec3<R> wo, const FacetsSolved<R>& solved) const {
     const Vec3<R> up = to_upper(wo, wo);
-    return {facets.shadow(up), l.at(up), mean, BounceSampling<R>(area)};
+    return {solved, facets.shadow(up), loss().at(up)};
   }
 
   Value evaluate(Vec3<R> wo, Vec3<R> wi, const FacetsSeen<R>& seen) const {
@@ -125,11 +134,15 @@ struct FacetMirror {
   Spectrum<R> estimate(Vec3<R>) const { return colour; }
   SpecularTerms<R> terms(Vec3<R>) const { return mirror_terms(colour); }
 
-  FacetsSeen<R> seen(Vec3<R> wo) const {
-    FacetsSeen<R> s = rough.seen(wo);
-    for (int j = 0; j < kWavelengths; ++j)  // a colour above 1 is not physical: no series for it
-      s.further[j] = colour[j] <= 1 ? multiple_fresnel(colour[j], s.mean) : colour[j];
-    return s;
+  FacetsSolved<R> solved() const {
+    return rough.solved([this](R loss) {
+      // A colour above 1 is not physical: no series for it.
+      return Spectrum<R>::map([loss](R c) { return c <= 1 ? multiple_fresnel(c, loss) : c; },
+                              colour);
+    });
+  }
+  FacetsSeen<R> seen(Vec3<R> wo, const FacetsSolved<R>& solved) const {
+    return rough.seen(wo, solved);
   }
 
   Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode, const FacetsSeen<R>& seen) const {
