@@ -259,9 +259,10 @@ std::string document() {
       "## Materials, ns a hit\n\nAll eight wavelengths of a hit in float, the choice among parts "
       "included: the median of {} rounds, of all\nmaterials in turn, over {} hits, half of whose "
       "directions are the model's own samples. First as the renderer calls\nthem, hit after hit "
-      "with numbers of its own; then `alone`, where each call waits for the one before. What coats "
-      "are\nsolved for is kept from hit to hit, as along paths. `error` is how far f in float is "
-      "from f in double at the same\nnumbers, in units of 2^-24 of it; of models that are ideally "
+      "with numbers of its own; then `alone`, where each call waits for the one before. What "
+      "coats, rough metal\nand rough glass are along all directions is kept from hit to hit, as "
+      "along paths. `error` is how far f in float is from f in\ndouble at the same numbers, in "
+      "units of 2^-24 of it; of models that are ideally "
       "specular, so are weights of samples. `./run bench`, or `bench_materials` alone.\n\n{}",
       kRounds, kHits, table_of(rows()));
 }

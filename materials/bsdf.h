@@ -118,7 +118,7 @@ class Bsdf {
     const UnderCoats<R>* solution(int node) const { return solved[node] ? &under[node] : nullptr; }
   };
   /// For all that comes along `wo`: made once where one `wo` meets many `wi`. What a choice was
-  /// before, of any material, saves time where coats are the same.
+  /// before, of any material, saves time where coats, rough metal and rough glass are the same.
   void choose(Vec3<R> wo, Choice& choice) const;
   Choice choose(Vec3<R> wo) const {
     Choice choice;

@@ -70,10 +70,13 @@ inline void see(const M& model, const Layout& layout, const R* params, Vec3<R> w
     std::get<PerNode<Seen>>(choice.seen).of[i] = model.seen(wo, solved);
   }
 }
-template <class R, class M>
-inline const auto& seen(const M& model, int i, const typename Bsdf<R>::Choice& choice) {
+/// `visit(solved, seen)` of that.
+template <class R, class M, class Visit>
+inline auto with_seen(const M& model, int i, const typename Bsdf<R>::Choice& choice, Visit visit) {
+  using Solved = decltype(model.solved());
   using Seen = decltype(model.seen({}, model.solved()));
-  return std::get<PerNode<Seen>>(choice.seen).of[i];
+  return visit(std::get<SolvedPerNode<SolvedModel<R, Solved>>>(choice.models)[i].get(),
+               std::get<PerNode<Seen>>(choice.seen).of[i]);
 }
 
 /// What the model of node `i` gives and takes, as `choice` has seen it. \pre CanBeSmooth
@@ -85,7 +88,8 @@ inline Lobes<R> evaluate(const M& model, Vec3<R> wo, Vec3<R> wi, Mode mode, int 
   wo = choice.frames.seen(i, wo), wi = choice.frames.seen(i, wi);
   Lobes<R> l;
   if constexpr (requires { model.solved(); })
-    l = model.evaluate(wo, wi, mode, seen<R>(model, i, choice));
+    l = with_seen<R>(model, i, choice,
+                     [&](const auto&... known) { return model.evaluate(wo, wi, mode, known...); });
   else
     l = model.evaluate(wo, wi, mode);
   if (share != 1) l.f *= share;
@@ -97,7 +101,9 @@ inline bool sample(const M& model, Vec3<R> wo, R u_lobe, R u1, R u2, int i,
   wo = choice.frames.seen(i, wo);
   bool drawn;
   if constexpr (requires { model.solved(); })
-    drawn = model.sample(wo, u_lobe, u1, u2, seen<R>(model, i, choice), wi);
+    drawn = with_seen<R>(model, i, choice, [&](const auto&... known) {
+      return model.sample(wo, u_lobe, u1, u2, known..., wi);
+    });
   else
     drawn = model.sample(wo, u_lobe, u1, u2, wi);
   wi = choice.frames.unseen(i, wi);

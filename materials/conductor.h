@@ -100,18 +100,18 @@ struct RoughMetal {
                               mean_reflectance());
     });
   }
-  FacetsSeen<R> seen(Vec3<R> wo, const FacetsSolved<R>& solved) const {
-    return rough.seen(wo, solved);
-  }
+  FacetsSeen<R> seen(Vec3<R> wo, const FacetsSolved<R>&) const { return rough.seen(wo); }
 
-  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode, const FacetsSeen<R>& seen) const {
-    const auto v = rough.evaluate(wo, wi, seen);
+  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode, const FacetsSolved<R>& solved,
+                    const FacetsSeen<R>& seen) const {
+    const auto v = rough.evaluate(wo, wi, solved, seen);
     if (!(v.pdf > 0)) return {};
-    return {reflectance(v.cos_h) * v.single + seen.further * v.multiple, Spectrum<R>(v.pdf)};
+    return {reflectance(v.cos_h) * v.single + solved.further * v.multiple, Spectrum<R>(v.pdf)};
   }
 
-  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const FacetsSeen<R>& seen, Vec3<R>& wi) const {
-    return rough.sample(wo, u_lobe, u1, u2, seen, wi);
+  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const FacetsSolved<R>& solved,
+              const FacetsSeen<R>& seen, Vec3<R>& wi) const {
+    return rough.sample(wo, u_lobe, u1, u2, solved, seen, wi);
   }
 };
 

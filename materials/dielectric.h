@@ -18,7 +18,7 @@ namespace mms::materials {
 /// is `eta` times as high.
 template <class Facets, class R>
 inline InterfaceLoss<R> interface_loss(const Facets& facets, R eta) {
-  return {&facets.interface(), facets.ax, facets.ay, eta};
+  return {facets.interface(), facets.ax, facets.ay, eta};
 }
 
 /// What is at each facet of a bare interface; another face has the same members.
@@ -38,12 +38,12 @@ struct BareFace {
   /// What facets lose along a direction and in the mean, for one index and all wavelengths of it.
   using Loss = R;
   template <class Facets>
-  Loss loss(const Facets& facets, R eta, Vec3<R> w) const {
-    return interface_loss(facets, eta).at(w);
+  Loss loss(const Facets&, const InterfaceLoss<R>& bare, Vec3<R> w) const {
+    return bare.at(w);
   }
   template <class Facets>
-  Loss mean_loss(const Facets& facets, R eta) const {
-    return interface_loss(facets, eta).mean();
+  Loss mean_loss(const Facets&, const InterfaceLoss<R>& bare) const {
+    return bare.mean();
   }
   /// What that is at one of the wavelengths.
   struct Law {
@@ -58,14 +58,15 @@ struct BareFace {
 template <class R, class Face>
 struct InterfaceSolved {
   std::array<typename Face::Law, kWavelengths> law;
-  BounceSampling<R> bounces = {};  ///< how directions of further ones are drawn
-  Spectrum<R> mean[2];             ///< over the hemisphere, what is lost by the first bounce
-  Spectrum<R> transmit[2];         ///< share of that which goes to the far side
+  std::array<InterfaceLoss<R>, kWavelengths> bare[2];  ///< by the first bounce; of each index once
+  BounceSampling<R> bounces = {};                      ///< how directions of further ones are drawn
+  Spectrum<R> mean[2];                                 ///< over the hemisphere, what is lost
+  Spectrum<R> transmit[2];                             ///< share of that which goes to the far side
 };
 
 /// The same facets along one direction: what is found once for all that it meets.
 template <class R, class Face>
-struct InterfaceSeen : InterfaceSolved<R, Face> {
+struct InterfaceSeen {
   R shadow = 0;      ///< |w.z| Lambda(w)
   Spectrum<R> lost;  ///< by the first bounce
 };
@@ -151,8 +152,8 @@ struct RoughInterface {
     for (int j = 0; j < kWavelengths; ++j) {
       const R eta = rough_eta(j, Vec3<R>{0, 0, 1});
       if (!same_index(j)) {
-        outside = face.mean_loss(facets, eta);
-        inside = face.mean_loss(facets, 1 / eta);
+        outside = face.mean_loss(facets, s.bare[0][j] = interface_loss(facets, eta));
+        inside = face.mean_loss(facets, s.bare[1][j] = interface_loss(facets, 1 / eta));
       }
       s.law[j] = face.law(j, eta, shared);
       const R out = s.mean[0][j] = s.law[j].of(outside), in = s.mean[1][j] = s.law[j].of(inside);
@@ -163,29 +164,21 @@ struct RoughInterface {
   }
 
   Seen seen(Vec3<R> wo, const Solved& solved) const {
-    Seen s{solved, facets.shadow(wo), {}};
-    typename Face::Loss loss;
-    for (int j = 0; j < kWavelengths; ++j) {
-      if (!same_index(j)) loss = face.loss(facets, rough_eta(j, wo), wo);
-      s.lost[j] = s.law[j].of(loss);
-    }
-    return s;
+    return {facets.shadow(wo), lost(wo, solved)};
   }
 
-  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Seen& seen) const {
+  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Solved& solved,
+                    const Seen& seen) const {
     const bool reflects = same_side(wo, wi);
     Lobes<R> out = reflects ? evaluate_reflection(wo, wi, seen.shadow)
                             : evaluate_transmission(wo, wi, seen.shadow, mode);
-    const R pdf = seen.bounces.pdf(std::abs(wi.z));
-    const Spectrum<R>&mean = seen.mean[wi.z < 0], &transmit = seen.transmit[wo.z < 0];
+    const R pdf = solved.bounces.pdf(std::abs(wi.z));
+    const Spectrum<R>&mean = solved.mean[wi.z < 0], &transmit = solved.transmit[wo.z < 0];
+    const Spectrum<R> spread = lost(wi, solved);  // by further bounces
     R eta = 1;
-    typename Face::Loss spread;  // by further bounces along wi
     for (int j = 0; j < kWavelengths; ++j) {
-      if (!same_index(j)) {
-        eta = rough_eta(j, wo);
-        spread = face.loss(facets, reflects ? eta : 1 / eta, wi);
-      }
-      const R shape = seen.law[j].of(spread) / (kPi<R> * mean[j]);
+      if (!same_index(j)) eta = rough_eta(j, wo);
+      const R shape = spread[j] / (kPi<R> * mean[j]);
       const FresnelSplit<R> further{1 - transmit[j], transmit[j]};
       const R f =
           reflects ? further.reflected * reflected[j] : further.transmitted * transmitted[j];
@@ -198,14 +191,15 @@ struct RoughInterface {
     return out;
   }
 
-  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const Seen& seen, Vec3<R>& wi) const {
+  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const Solved& solved, const Seen& seen,
+              Vec3<R>& wi) const {
     const Vec3<R> up = to_upper(wo, wo);
     const R lost = seen.lost[0];
     if (u_lobe < lost) {
-      const R transmit = seen.transmit[wo.z < 0][0];
+      const R transmit = solved.transmit[wo.z < 0][0];
       const Choice c = choose(0, {1 - transmit, transmit});
       if (!(c.reflect + c.transmit > 0)) return false;
-      wi = seen.bounces.sample(u1, u2);
+      wi = solved.bounces.sample(u1, u2);
       if (!(wi.z > 0)) return false;
       const bool down = u_lobe >= c.reflect * lost;
       wi.z = down == (wo.z > 0) ? -wi.z : wi.z;
@@ -254,6 +248,17 @@ struct RoughInterface {
     const R least = R(kMinAlpha) / narrow();
     const R bent = std::abs(n - 1) >= least ? n : n < 1 ? 1 - std::min(least, R(0.5)) : 1 + least;
     return wo.z > 0 ? bent : 1 / bent;
+  }
+
+  /// By the first bounce of light along `w`.
+  Spectrum<R> lost(Vec3<R> w, const Solved& solved) const {
+    Spectrum<R> to;
+    typename Face::Loss loss;
+    for (int j = 0; j < kWavelengths; ++j) {
+      if (!same_index(j)) loss = face.loss(facets, solved.bare[w.z < 0][j], w);
+      to[j] = solved.law[j].of(loss);
+    }
+    return to;
   }
 
   bool same_index(int j) const { return j > 0 && ior[j] == ior[j - 1]; }

@@ -77,19 +77,23 @@ inline constexpr double kBentIndexPower[] = {0.75, 1.2};
 inline constexpr int kCoatAlpha = 37, kGloss = 65, kCoatIndex = 49, kCoatDirection = 49;
 inline constexpr double kLargestGloss = 5e4;
 
-/// Above the surface.
+/// The angle of (x, y) from the x axis, of neither below 0, over a right one: within 2e-8
+/// (Abramowitz and Stegun 4.4.49). What is laid out by it and read by it sees none of that.
 template <class R>
-inline R angle(R z, R s) {
-  return std::atan2(z, s) * (2 / std::numbers::pi_v<R>);
+inline R angle(R y, R x) {
+  const R most = std::max(x, y), t = std::min(x, y) / most, u = t * t, u2 = u * u, u4 = u2 * u2;
+  const R low = (1 - R(0.3333314528) * u) + u2 * (R(0.1999355085) - R(0.1420889944) * u),
+          high = (R(0.1065626393) - R(0.0752896400) * u) +
+                 u2 * (R(0.0429096138) - R(0.0161657367) * u) + u4 * R(0.0028662257);
+  const R part = t * (low + u4 * high) * (2 / std::numbers::pi_v<R>);
+  return most > 0 ? y > x ? 1 - part : part : R(0);
 }
 
 /// Of a direction of |cosine| `z` and tangential length `s`; fine where z is near 0 or `width` s.
 template <class R>
 inline R direction(R z, R s, R width) {
   const R tau = s * width;
-  if (!(tau > 0)) return 1;
-  const R l = std::sqrt(z * z + tau * tau);
-  return std::atan(std::sqrt(z * (l + z)) / tau) * (2 / std::numbers::pi_v<R>);
+  return angle(std::sqrt(z * (std::sqrt(z * z + tau * tau) + z)), tau);
 }
 
 /// The scale of directions where masking sets in.
@@ -167,33 +171,50 @@ inline R dense_direction(R z, R s, R width) {
   return towards_grazing((2 * direction(z, s, width) + angle(z, s)) / 3);
 }
 
-/// The same where the index falls, `eta` < 1. A part of it climbs within `width` of the critical
-/// angle, of cosine `zc`; less of it the rougher the facets are, as they blur the ridge away. For
-/// indices next to 1 a part climbs where z is zc^2: below, refraction leads to the wrong side.
+/// The same of one width and index, and where the index falls, `eta` < 1, another: a part of it
+/// climbs within `width` of the critical angle, of cosine `zc`; less of it the rougher the facets
+/// are, as they blur the ridge away. For indices next to 1 a part climbs where z is zc^2: below,
+/// refraction leads to the wrong side. All that is moved by a quotient of linear functions that
+/// puts the critical angle at one place for every index: nearly at 1/2, but for rough facets.
 template <class R>
-inline R along_ridge(R z, R s, R alpha, R zc, R eta) {
-  const R w = width(alpha), scale = R(1.5) * w, share = R(1.3) * (1 - alpha) * (1 - alpha);
-  const auto climb = [scale](R sine) { return sine / std::sqrt(sine * sine + scale * scale); };
-  const R from = climb(-zc), ridge = (climb(z * eta - s * zc) - from) / (climb(eta) - from);
-  const R wrong = eta * eta / 2;
-  return (towards_grazing(direction(z, s, w)) + R(0.7) * towards_grazing(angle(z, s)) +
-          share * ridge + wrong * direction(z, s, zc * zc)) /
-         (R(1.7) + share + wrong);
-}
+class InterfaceDirection {
+ public:
+  InterfaceDirection() = default;
+  InterfaceDirection(R alpha, R eta) : width_(width(alpha)), eta_(eta) {
+    if (!(eta < 1)) return;
+    const R smooth = (1 - alpha) * (1 - alpha);
+    zc_ = std::sqrt((1 - eta) * (1 + eta));
+    share_ = R(1.3) * smooth;
+    from_ = climb(-zc_);
+    span_ = climb(eta) - from_;
+    const R at = std::clamp(along_ridge(zc_, eta), R(0.1), R(0.9));
+    critical_ = R(0.5) + (at - R(0.5)) * smooth;
+  }
 
-/// That, moved by a quotient of linear functions that puts the critical angle at one place for
-/// every index: nearly at 1/2, but for rough facets.
-template <class R>
-inline R rare_direction(R z, R s, R alpha, R eta) {
-  const R zc = std::sqrt((1 - eta) * (1 + eta)), smooth = (1 - alpha) * (1 - alpha);
-  const R at = std::clamp(along_ridge(zc, eta, alpha, zc, eta), R(0.1), R(0.9));
-  const R c = R(0.5) + (at - R(0.5)) * smooth, u = along_ridge(z, s, alpha, zc, eta);
-  return u * (1 - c) / (u * (1 - 2 * c) + c);
-}
+  R operator()(R z, R s) const {
+    if (!(eta_ < 1)) return dense_direction(z, s, width_);
+    const R u = along_ridge(z, s), c = critical_;
+    return u * (1 - c) / (u * (1 - 2 * c) + c);
+  }
+
+ private:
+  R width_ = 1, eta_ = 1, zc_ = 0, share_ = 0, from_ = 0, span_ = 1, critical_ = 0;
+
+  R climb(R sine) const {
+    const R scale = R(1.5) * width_;
+    return sine / std::sqrt(sine * sine + scale * scale);
+  }
+  R along_ridge(R z, R s) const {
+    const R ridge = (climb(z * eta_ - s * zc_) - from_) / span_, wrong = eta_ * eta_ / 2;
+    return (towards_grazing(direction(z, s, width_)) + R(0.7) * towards_grazing(angle(z, s)) +
+            share_ * ridge + wrong * direction(z, s, zc_ * zc_)) /
+           (R(1.7) + share_ + wrong);
+  }
+};
 
 template <class R>
 inline R interface_direction(R z, R s, R alpha, R eta) {
-  return eta < 1 ? rare_direction(z, s, alpha, eta) : dense_direction(z, s, width(alpha));
+  return InterfaceDirection<R>(alpha, eta)(z, s);
 }
 
 /// Finer towards 1, along the normal, the wider facets are: what steep facets lose there changes
@@ -210,14 +231,13 @@ inline R crowded(R x, R at) {
   return (std::cbrt(x - at) + from) / (std::cbrt(1 - at) + from);
 }
 
-/// The same of stretched facets. Steep ones of GGX are so many that their loss has a kink where
-/// light along the direction is just not reflected totally by the steepest of all, at the cosine
-/// `eta`: `kink` parts are crowded about it as a cubic root, over which a kink is smooth.
+/// The same of stretched facets, from that of round ones, `x`. Steep ones of GGX are so many that
+/// their loss has a kink where light along the direction is just not reflected totally by the
+/// steepest of all, at the cosine `eta`: `kink` parts are crowded about it as a cubic root, over
+/// which a kink is smooth.
 template <class R>
-inline R bent_direction(R z, R s, R alpha, R eta, R kink) {
-  if (!(eta < 1))
-    return towards_normal(towards_grazing(dense_direction(z, s, width(alpha))), alpha);
-  const R x = rare_direction(z, s, alpha, eta);
+inline R bent_direction(R x, R z, R s, R alpha, R eta, R kink) {
+  if (!(eta < 1)) return towards_normal(towards_grazing(x), alpha);
   if (kink == 0) return towards_normal(x, alpha);
   const R at = angle(eta, std::sqrt((1 - eta) * (1 + eta)));
   return towards_grazing((x + kink * crowded(angle(z, s), at)) / (1 + kink));
@@ -264,7 +284,8 @@ inline R gloss(R n) {
 /// Of a coat, crowded towards grazing.
 template <class R>
 inline R coat_direction(R z) {
-  return std::sqrt(std::sqrt(std::asin(std::min(z, R(1))) * (2 / std::numbers::pi_v<R>)));
+  z = std::min(z, R(1));
+  return std::sqrt(std::sqrt(angle(z, std::sqrt((1 - z) * (1 + z)))));
 }
 
 }  // namespace axes
@@ -401,17 +422,54 @@ struct StretchedInterface {
   Shape<R> shape(R widening) const { return Shape<R>::of(wide, narrow, x, y, widening); }
 };
 
+/// The loss of a rough dielectric whose facets are `alpha` wide along both axes, as the table has
+/// it: what of reading it does not depend on the direction is found once.
+template <class R>
+class RoundInterfaceLoss {
+ public:
+  RoundInterfaceLoss() = default;
+  RoundInterfaceLoss(const InterfaceTables& tables, R alpha, R eta)
+      : table_(tables.loss[eta < 1]),
+        directions_(axes::kInterfaceDirection[eta < 1]),
+        indices_(axes::kIndex[eta < 1]),
+        alpha_(Stencil<R>::at(axes::interface_alpha(alpha), axes::kInterfaceAlpha[eta < 1])),
+        index_(Stencil<R>::at(axes::index(eta), indices_)),
+        direction_(alpha, eta) {}
+
+  R direction(R z, R s) const { return direction_(z, s); }
+  R at(R direction) const {
+    const int n1 = coefficients(directions_), n0 = n1 * coefficients(indices_);
+    const R root =
+        interpolate(table_, alpha_, n0, index_, n1, Stencil<R>::at(direction, directions_));
+    return root > 0 ? root * root : R(0);
+  }
+  R at(R z, R s) const { return at(direction(z, s)); }
+
+ private:
+  const float* table_ = nullptr;
+  int directions_ = 2, indices_ = 2;
+  Stencil<R> alpha_, index_;
+  axes::InterfaceDirection<R> direction_;
+};
+
 /// The loss of a rough dielectric of relative index `eta` (far side over near side). `ax`, `ay` >
 /// 0.
 template <class R>
 struct InterfaceLoss {
-  const InterfaceTables* tables;
-  R ax, ay, eta;
+  const InterfaceTables* tables = nullptr;
+  R ax = 1, ay = 1, eta = 1;
+  RoundInterfaceLoss<R> same;  ///< where both widths are
+
+  InterfaceLoss() = default;
+  InterfaceLoss(const InterfaceTables& its_tables, R its_ax, R its_ay, R its_eta)
+      : tables(&its_tables), ax(its_ax), ay(its_ay), eta(its_eta) {
+    if (ax == ay) same = {its_tables, ax, eta};
+  }
 
   /// l(w) in [0, 1].
   R at(Vec3<R> w) const {
     const R z = std::abs(w.z), s = std::sqrt(w.x * w.x + w.y * w.y);
-    if (ax == ay) return limited(round(ax, z, s));
+    if (ax == ay) return limited(same.at(z, s));
     const StretchedInterface<R> f = stretched({w.x, w.y, z});
     return at(f, [&](R like, const Stencil<R>& d) { return difference(f, like, d); });
   }
@@ -421,8 +479,10 @@ struct InterfaceLoss {
   template <class Difference>
   R at(const StretchedInterface<R>& f, const Difference& difference) const {
     const R s = std::sqrt(f.x * f.x + f.y * f.y), like = f.like();
-    const R place = axes::bent_direction(f.z, s, like, eta, R(tables->kink));
-    return limited(round(like, f.z, s) +
+    const RoundInterfaceLoss<R> round(*tables, like, eta);
+    const R direction = round.direction(f.z, s),
+            place = axes::bent_direction(direction, f.z, s, like, eta, R(tables->kink));
+    return limited(round.at(direction) +
                    f.scale() * difference(like, Stencil<R>::at(place, grid().direction)));
   }
   /// As the table has it.
@@ -456,18 +516,6 @@ struct InterfaceLoss {
   StretchedInterface<R> stretched(Vec3<R> w) const {
     return ax < ay ? StretchedInterface<R>{ay, ax, w.y, w.x, w.z}
                    : StretchedInterface<R>{ax, ay, w.x, w.y, w.z};
-  }
-
-  /// l of facets of one width along both axes, as the table has it.
-  R round(R alpha, R z, R s) const {
-    using namespace axes;
-    const int directions = kInterfaceDirection[falls()], indices = kIndex[falls()];
-    const auto d = Stencil<R>::at(interface_direction(z, s, alpha, eta), directions);
-    const auto a = Stencil<R>::at(interface_alpha(alpha), kInterfaceAlpha[falls()]);
-    const auto n = Stencil<R>::at(index(eta), indices);
-    const int n1 = coefficients(directions), n0 = n1 * coefficients(indices);
-    const R root = interpolate(tables->loss[falls()], a, n0, n, n1, d);
-    return root > 0 ? root * root : R(0);
   }
 
  private:

@@ -66,11 +66,11 @@ struct FilmFace {
   }
 
   using Loss = FilmedLoss<R>;
-  Loss loss(const Ggx<R>& facets, R eta, Vec3<R> w) const {
-    return Loss::at(kGgxFilm, interface_loss(facets, eta), mirrors(facets), w, terms());
+  Loss loss(const Ggx<R>& facets, const InterfaceLoss<R>& bare, Vec3<R> w) const {
+    return Loss::at(kGgxFilm, bare, mirrors(facets), w, terms());
   }
-  Loss mean_loss(const Ggx<R>& facets, R eta) const {
-    return Loss::mean(kGgxFilm, interface_loss(facets, eta), mirrors(facets), terms());
+  Loss mean_loss(const Ggx<R>& facets, const InterfaceLoss<R>& bare) const {
+    return Loss::mean(kGgxFilm, bare, mirrors(facets), terms());
   }
   using Law = FilmLaw<R>;
   using Shared = SharedFilms<R>;

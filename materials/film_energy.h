@@ -93,13 +93,14 @@ struct FilmedLoss {
     const R z = std::abs(w.z), s = std::sqrt(w.x * w.x + w.y * w.y);
     const StretchedInterface<R> f = loss.stretched({w.x, w.y, z});
     const R alpha = loss.ax == loss.ay ? loss.ax : f.like();
+    const R place = interface_direction(z, s, alpha, loss.eta);
     const auto add = [&](R* to, int of_each, const float* table, const Stencil<R>& width,
                          int indices, int directions) {
       const int n2 = of_each * kFilmTerms, n1 = n2 * coefficients(directions),
                 n0 = n1 * coefficients(indices);
       add_terms(to, of_each * count, table, R(1), width, n0,
                 Stencil<R>::at(film_index(loss.eta), indices), n1,
-                Stencil<R>::at(interface_direction(z, s, alpha, loss.eta), directions), n2);
+                Stencil<R>::at(place, directions), n2);
     };
     add(sums, 1, tables.loss[falls], Stencil<R>::at(interface_alpha(alpha), kFilmAlpha), kFilmIndex,
         kFilmDirection[falls]);

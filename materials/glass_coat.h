@@ -60,7 +60,7 @@ inline R glass_alpha(R alpha) {
 
 /// Of a direction inside, `eta` < 1. With x how much z^2 is above that of the critical angle, what
 /// nearly flat facets do is smooth over the roots of x and of -x, but for what they blur; of rough
-/// ones it is over rare_direction.
+/// ones it is over interface_direction.
 template <class R>
 inline R critical_direction(R z, R s, R alpha, R eta) {
   const R zc2 = (1 - eta) * (1 + eta), zc = std::sqrt(zc2);
@@ -74,7 +74,8 @@ inline R critical_direction(R z, R s, R alpha, R eta) {
   const R from = roots(-zc2), place = (roots(z * z - zc2) - from) / (roots(eta * eta) - from);
   const R flat = (1 - alpha) * (1 - alpha), share = 5 * flat * flat * flat;
   const R masked = direction(z, s, width(alpha));
-  return (rare_direction(z, s, alpha, eta) + share * (place + masked / 2)) / (1 + R(1.5) * share);
+  return (interface_direction(z, s, alpha, eta) + share * (place + masked / 2)) /
+         (1 + R(1.5) * share);
 }
 
 /// Of a direction of |cosine| `z` and tangential length `s`.

@@ -43,7 +43,7 @@ struct FacetsSolved {
 
 /// The same facets along one direction: what is found once for all that it meets.
 template <class R>
-struct FacetsSeen : FacetsSolved<R> {
+struct FacetsSeen {
   R shadow = 0;  ///< |w.z| Lambda(w)
   R loss = 0;    ///< to further bounces
 };
@@ -77,18 +77,19 @@ struct RoughReflection {
     const R area = facets.ax * facets.ay, mean = std::max(loss().mean(), R(0.02) * mean_unit(area));
     return {mean, BounceSampling<R>(area), further(mean)};
   }
-  FacetsSeen<R> seen(Vec3<R> wo, const FacetsSolved<R>& solved) const {
+  FacetsSeen<R> seen(Vec3<R> wo) const {
     const Vec3<R> up = to_upper(wo, wo);
-    return {solved, facets.shadow(up), loss().at(up)};
+    return {facets.shadow(up), loss().at(up)};
   }
 
-  Value evaluate(Vec3<R> wo, Vec3<R> wi, const FacetsSeen<R>& seen) const {
+  Value evaluate(Vec3<R> wo, Vec3<R> wi, const FacetsSolved<R>& solved,
+                 const FacetsSeen<R>& seen) const {
     Value v;
     if (!same_side(wo, wi)) return v;
     wi = to_upper(wi, wo);
     wo = to_upper(wo, wo);
-    v.multiple = seen.loss * loss().at(wi) / (kPi<R> * seen.mean);
-    v.pdf = seen.loss * seen.bounces.pdf(wi.z);
+    v.multiple = seen.loss * loss().at(wi) / (kPi<R> * solved.mean);
+    v.pdf = seen.loss * solved.bounces.pdf(wi.z);
     const HalfVector<R> half(wo, wi);
     const Vec3<R> h = half.h;
     if (!(h.z > 0)) return v;
@@ -99,10 +100,11 @@ struct RoughReflection {
   }
 
   /// Draws wi; false where a single bounce leaves the side of wo.
-  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const FacetsSeen<R>& seen, Vec3<R>& wi) const {
+  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const FacetsSolved<R>& solved,
+              const FacetsSeen<R>& seen, Vec3<R>& wi) const {
     const Vec3<R> up = to_upper(wo, wo);
     if (u_lobe < seen.loss) {
-      wi = seen.bounces.sample(u1, u2);
+      wi = solved.bounces.sample(u1, u2);
     } else {
       const Vec3<R> h = facets.sample_visible(up, u1, u2);
       wi = normalize(h * (2 * dot(up, h)) - up);
@@ -141,17 +143,17 @@ struct FacetMirror {
                               colour);
     });
   }
-  FacetsSeen<R> seen(Vec3<R> wo, const FacetsSolved<R>& solved) const {
-    return rough.seen(wo, solved);
+  FacetsSeen<R> seen(Vec3<R> wo, const FacetsSolved<R>&) const { return rough.seen(wo); }
+
+  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode, const FacetsSolved<R>& solved,
+                    const FacetsSeen<R>& seen) const {
+    const auto v = rough.evaluate(wo, wi, solved, seen);
+    return {colour * v.single + solved.further * v.multiple, Spectrum<R>(v.pdf)};
   }
 
-  Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode, const FacetsSeen<R>& seen) const {
-    const auto v = rough.evaluate(wo, wi, seen);
-    return {colour * v.single + seen.further * v.multiple, Spectrum<R>(v.pdf)};
-  }
-
-  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const FacetsSeen<R>& seen, Vec3<R>& wi) const {
-    return rough.sample(wo, u_lobe, u1, u2, seen, wi);
+  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const FacetsSolved<R>& solved,
+              const FacetsSeen<R>& seen, Vec3<R>& wi) const {
+    return rough.sample(wo, u_lobe, u1, u2, solved, seen, wi);
   }
 };
 

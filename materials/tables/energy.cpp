@@ -63,7 +63,7 @@ RoundInterface write_round_interface(const TableFiles& to, const std::string& na
   round.mean =
       write(to, name + "Mean", Grid({kInterfaceMean, kIndex[!rising]}, [&](const double* x) {
               const double a = from_log(x[0]), eta = index_of(x[1], rising);
-              return mean_loss(InterfaceLoss<double>{&tables, a, a, eta}, ridge_of(eta));
+              return mean_loss(InterfaceLoss<double>{tables, a, a, eta}, ridge_of(eta));
             }));
   return round;
 }
@@ -103,18 +103,19 @@ std::vector<float> stretched_difference(bool rising, const InterfaceTables& roun
     const double like = std::pow(kLeastBentRoot + (1 - kLeastBentRoot) * x[0], 2);
     const double eta = kinked_index_at(x[1], rising, round.kink);
     const double c = cosine(std::min(x[2], 1 - kLeast), [&](double z, double s) {
-      return bent_direction(z, s, like, eta, double(round.kink));
+      return bent_direction(interface_direction(z, s, like, eta), z, s, like, eta,
+                            double(round.kink));
     });
     std::vector<double> values;
     for (int shape = 0; shape < shapes.count(); ++shape) {
       auto seen = shapes.facets_like(shape, like, widening(eta, like));
       const double z = std::max(c, kLeast * seen.root()), s = std::sqrt(1 - z * z);
       seen.x *= s, seen.y *= s, seen.z = z;
-      const InterfaceLoss<double> loss{&round, seen.wide, seen.narrow, eta};
+      const RoundInterfaceLoss<double> loss(round, like, eta);
       const Distribution<double> facets{{seen.wide, seen.narrow}};
       values.push_back(
           (interface_loss(facets, eta, {seen.x, seen.y, z}, slopes_of(facets).kPoints) -
-           loss.round(like, z, s)) /
+           loss.at(z, s)) /
           seen.scale());
     }
     for (int t = 0; t < terms; ++t) fitted.values[i * terms + t] = shapes.term(t, values.data());
@@ -138,8 +139,8 @@ void write_stretched_interface(const TableFiles& to, const std::string& name, bo
           const double alpha = std::pow(root, 4);
           const auto [wide, narrow] = bent_widths(alpha, x[1]);
           const double eta = bent_index_at(x[2], rising);
-          const InterfaceLoss<double> like{&tables, alpha, alpha, eta},
-              loss{&tables, wide, narrow, eta};
+          const InterfaceLoss<double> like{tables, alpha, alpha, eta},
+              loss{tables, wide, narrow, eta};
           return mean_loss(loss, ridge_of(eta)) * mean_unit(alpha * alpha) / like.mean();
         }));
 }

@@ -101,7 +101,8 @@ Grid stretched_quotients(bool rising, const FilmTables& round) {
     for (int d = 0; d < directions; ++d) {
       const double z = cosine_at(double(d) / (directions - 1), like, eta), s = std::sqrt(1 - z * z);
       double same[kFilmTerms] = {};
-      FilmedLoss<double>::quotients(round, {nullptr, like, like, eta}, {s, 0, z}, same, kFilmTerms);
+      FilmedLoss<double>::quotients(round, {kGgxInterface, like, like, eta}, {s, 0, z}, same,
+                                    kFilmTerms);
       std::vector<double> values[kFilmTerms];
       for (int shape = 0; shape < shapes.count(); ++shape) {
         const auto seen = shapes.facets_like(shape, like);
@@ -119,7 +120,7 @@ Grid stretched_quotients(bool rising, const FilmTables& round) {
 
 /// Of what the tables say, the mean over the hemisphere of D_k and of what it is measured in.
 Changes mean_quotients(const FilmTables& tables, const Ggx<double>& facets, double eta) {
-  const InterfaceLoss<double> loss{&facets.interface(), facets.ax, facets.ay, eta};
+  const InterfaceLoss<double> loss{facets.interface(), facets.ax, facets.ay, eta};
   const FacetLoss<double> mirrors{&facets.tables(), facets.ax, facets.ay};
   const auto changes = [&](Vec3d w) {
     const auto along = FilmedLoss<double>::at(tables, loss, mirrors, w, axes::kFilmTerms);

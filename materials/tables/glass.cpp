@@ -101,8 +101,8 @@ Parts<Count> lacks(double z) {
 /// them.
 template <bool Inside, int Count, class Facets>
 Parts<Count> further(const Facets& facets, double glass) {
-  const InterfaceLoss<double> outside{&facets.interface(), facets.ax, facets.ay, glass},
-      inside{&facets.interface(), facets.ax, facets.ay, 1 / glass};
+  const InterfaceLoss<double> outside{facets.interface(), facets.ax, facets.ay, glass},
+      inside{facets.interface(), facets.ax, facets.ay, 1 / glass};
   const double mean_outside = outside.mean(), mean_inside = inside.mean();
   const double across = Inside ? transmitted_share(mean_inside, mean_outside, 1 / glass)
                                : transmitted_share(mean_outside, mean_inside, glass);
@@ -141,7 +141,7 @@ Parts<Count> sent_back(const Facets& facets, double glass, Vec3d w, const Parts<
         const double leaves = out.share * (1 - out.taken);
         return leaves > 0 ? lacks<Inside, Count>(out.cosine) * leaves : Parts<Count>();
       });
-  sent += further * InterfaceLoss<double>{&facets.interface(), facets.ax, facets.ay, eta}.at(w);
+  sent += further * InterfaceLoss<double>{facets.interface(), facets.ax, facets.ay, eta}.at(w);
   return sent;
 }
 

@@ -119,7 +119,7 @@ TEST_CASE("tables of stretched facets hold that where their kink crosses the cri
             const Vec3d w{s * std::cos(azimuth), s * std::sin(azimuth), z};
             const double is = tables::interface_loss(facets, eta, w, 32);
             const double held =
-                InterfaceLoss<double>{&facets.interface(), facets.ax, facets.ay, eta}.at(w);
+                InterfaceLoss<double>{facets.interface(), facets.ax, facets.ay, eta}.at(w);
             worst = std::max(worst, std::abs(held - is));
             CHECK_MESSAGE(std::abs(held - is) < 1e-3, eta, " ", wide, " ", aspect, " ", azimuth,
                           " ", off, ": ", held - is);

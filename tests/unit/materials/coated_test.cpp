@@ -440,7 +440,7 @@ TEST_CASE("a coat of index 1 is not there") {
   }
 }
 
-TEST_CASE("a choice that was made for other coats changes nothing") {
+TEST_CASE("a choice that was made for other materials changes nothing") {
   const Material made[] = {
       coat(mirror(1), fresnel_mix(matte(1), microfacet(1, 0.4), 1.5), 0, 0, 1.6),
       coat(microfacet(1, 0.3), fresnel_mix(matte(1), microfacet(1, 0.4), 1.5), 0, 0, 1.6),
@@ -452,19 +452,30 @@ TEST_CASE("a choice that was made for other coats changes nothing") {
       coat(conductor(0.2, 3.4, 0.3), glossy(1, 20), 0, 0, 1.6),
       coat(coloured_metal(0.8, 1, 0.3), glossy(1, 20), 0, 0, 1.6),
       coat(film_conductor(0.2, 3.4, 1.5, 3e-7, 5e-7, 0.3), glossy(1, 20), 0, 0, 1.6),
-      coat(glossy(1, 9), matte(1), 0, 0, 1)};
+      coat(glossy(1, 9), matte(1), 0, 0, 1),
+      // One node each, at one place.
+      microfacet(1, 0.3), microfacet(0.5, 0.3), microfacet(0.5, 0.4), microfacet(0.5, 0.4, 0.7),
+      beckmann(0.5, 0.4, 0.7), conductor(0.2, 3.4, 0.3), coloured_metal(0.2, 3.4, 0.3),
+      film_conductor(0.2, 3.4, 1.5, 3e-7, 5e-7, 0.3),
+      film_conductor(0.2, 3.4, 1.5, 3e-7, 6e-7, 0.3), dielectric(1.5, 0.3),
+      dielectric(1.5, 0.3, 1, 0.5), dielectric(1.5, 0.3, 1, 0.5, 0, Lobe::BeckmannDielectric),
+      dielectric(1.6, 0.3, 1, 0.5), dielectric(1.6, 0.35, 1, 0.5),
+      dielectric(1.6, 0.35, 1, 0.5, 0.6), film_dielectric(1.6, 1.4, 3e-7, 5e-7, 0.35),
+      film_dielectric(1.6, 1.4, 3e-7, 6e-7, 0.35)};
   Bsdf<double>::Choice kept;
-  const Vec3d wi = direction(40, 2.0);
   for (int round = 0; round < 2; ++round)
     for (const Material& m : made)
-      for (double degrees : {20.0, 70.0}) {
+      for (double degrees : {20.0, 70.0, 130.0}) {
         const materials::Layout layout = m.layout();
         const auto p = m.params<double>();
         const Bsdf<double> bsdf(layout, p.data());
         const Vec3d wo = direction(degrees, 0.3);
         bsdf.choose(wo, kept);
-        CHECK(bsdf.evaluate(wo, wi, Mode::Radiance, kept).f[0] ==
-              bsdf.eval(wo, wi, Mode::Radiance)[0]);
+        for (double there : {40.0, 140.0}) {
+          const Vec3d wi = direction(there, 2.0);
+          CHECK(bsdf.evaluate(wo, wi, Mode::Radiance, kept).f.v ==
+                bsdf.eval(wo, wi, Mode::Radiance).v);
+        }
       }
 }
 
