@@ -135,6 +135,7 @@ constexpr const char* kVariants[] = {
     "coat(mirror(), glossy_refraction(1.5, 1.0, 40.0, 40.0))",
     "coat(microfacet(1, 0.3), dielectric(1.5))",
     "coat(microfacet(1, 0.3), dielectric(1.5, 0.4))",
+    "coat(microfacet(1, 0.3), dielectric(1.5, 0.4, anisotropy = 0.8))",
     "coat(microfacet(1, 0.3), microfacet(0.8, 0.4), ior = 1.45 + 1e-14 / ($wavelength * "
     "$wavelength))",
 };

@@ -57,6 +57,31 @@ struct BsdfSample {
   bool transmitted = false;  ///< wi and wo are on different sides
 };
 
+/// The numbers of a node, at most: `film_dielectric` has 43.
+inline constexpr int kMostNumbers = 6 * kWavelengths;
+
+/// A copy of a material, by which it is found again.
+template <class R>
+class KnownMaterial {
+ public:
+  void keep(const Layout& layout, const R* params) {
+    count_ = int(layout.nodes().size());
+    std::copy_n(layout.nodes().begin(), count_, nodes_.of.begin());
+    assert(layout.param_count() <= int(numbers_.size()));
+    std::copy_n(params, layout.param_count(), numbers_.begin());
+  }
+  bool is(const Layout& layout, const R* params) const {
+    return std::equal(layout.nodes().begin(), layout.nodes().end(), nodes_.of.begin(),
+                      nodes_.of.begin() + count_) &&
+           std::memcmp(params, numbers_.data(), layout.param_count() * sizeof(R)) == 0;
+  }
+
+ private:
+  int count_ = 0;
+  PerNode<Layout::Node> nodes_;
+  std::array<R, kMaxNodes * kMostNumbers> numbers_;
+};
+
 /// What of a node's model is alike along all directions, and the numbers that it is of.
 template <class R, class Solved>
 class SolvedModel {
@@ -76,7 +101,6 @@ class SolvedModel {
   const Solved& get() const { return solved_; }
 
  private:
-  static constexpr int kMostNumbers = 6 * kWavelengths;  ///< `film_dielectric` has 43
   Lobe lobe_{};
   std::array<R, kMostNumbers> numbers_;
   Solved solved_;
@@ -97,11 +121,16 @@ class Bsdf {
 
   /// How likely each lobe is chosen, for each wavelength as the hero.
   struct Choice {
-    PerNode<Spectrum<R>> probability;     ///< of lobes only
-    bool any = false;                     ///< the hero has something to choose from
-    Frames<R> frames;                     ///< of parts
-    CoatTree<R> coats;                    ///< where there is more than one node
-    PerNode<OverGlass<R>> glass;          ///< of coats that are over glass
+    PerNode<Spectrum<R>> probability;  ///< of lobes only
+    bool any = false;                  ///< the hero has something to choose from
+    Frames<R> frames;                  ///< of parts
+    CoatTree<R> coats;                 ///< where there is more than one node
+    PerNode<OverGlass<R>> glass;       ///< of coats that are over glass
+    /// The mean of what each sends back spread, seen from outside and from inside, where it is
+    /// known of this material.
+    PerNode<Spectrum<R>> mean_spread[2];
+    std::bitset<kMaxNodes> spread_known[2];
+    KnownMaterial<R> material;
     SolvedPerNode<UnderCoats<R>> under;   ///< of lobes that have several coats above or are of one
     std::bitset<kMaxNodes> solved;        ///< for which nodes `under` is asked
     SolvedPerNode<MeanThrough<R>> means;  ///< of Lambert lobes that have coats above

@@ -290,17 +290,29 @@ Spectrum<R> Bsdf<R>::mean_through_coats(int lobe, int base, Choice& choice) cons
 
 template <class R>
 void Bsdf<R>::find_coated_glass(Vec3<R> wo, Choice& choice) const {
-  find_glass(
-      *layout_, params_, choice.coats, choice.glass, [&](int lobe, const CoatsOnGlass<R>& coats) {
-        return with_model(lobe, false,
-                          [&](const auto& model) { return detail::knows_coats<R>(model, coats); });
-      });
+  const bool same = choice.material.is(*layout_, params_);
+  if (!same) {
+    choice.material.keep(*layout_, params_);
+    for (auto& known : choice.spread_known) known.reset();
+  }
+  find_glass(*layout_, params_, choice.coats, choice.glass, same,
+             [&](int lobe, const CoatsOnGlass<R>& coats) {
+               return with_model(lobe, false, [&](const auto& model) {
+                 return detail::knows_coats<R>(model, coats);
+               });
+             });
   for (int i = 0; i < node_count(); ++i) {
     if (!choice.coats.starts_at(i) || !choice.coats[i].over_glass) continue;
     OverGlass<R>& glass = choice.glass.of[i];
     glass.colour = choice.coats[i].kind.colour;
     glass.o = sent_back(i, wo, choice);
-    glass.mean = mean_spread(i, wo.z < 0, choice);
+    const bool inside = wo.z < 0;
+    glass.mean = {};
+    if (glass.o.spread == Spectrum<R>()) continue;
+    auto& known = choice.spread_known[inside];
+    if (!known[i]) choice.mean_spread[inside].of[i] = mean_spread(i, inside, choice);
+    known.set(i);
+    glass.mean = choice.mean_spread[inside].of[i];
   }
 }
 
@@ -334,7 +346,6 @@ Sent<R> Bsdf<R>::sent_back(int base, Vec3<R> w, const Choice& choice) const {
 
 template <class R>
 Spectrum<R> Bsdf<R>::mean_spread(int base, bool inside, const Choice& choice) const {
-  if (choice.glass.of[base].o.spread.v == Spectrum<R>().v) return {};
   // Over x = z^2 and, by steps of pi / 8, azimuths: one where all are alike, a quarter of the turn
   // of stretched facets, and half of it where axes are turned. Points crowd about a critical angle,
   // the same for each wavelength, whichever is the hero.

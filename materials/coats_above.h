@@ -482,14 +482,14 @@ inline void for_each_below(const Layout& layout, const R* params, const CoatTree
 }
 
 /// Which coats are over glass, and which lobes get the weight of glass: those of which
-/// `knows(lobe, coats)` is true.
+/// `knows(lobe, coats)` is true. Of a material that is the `same` as before, so are the laws.
 template <class R, class Knows>
 inline void find_glass(const Layout& layout, const R* params, CoatTree<R>& coats,
-                       PerNode<OverGlass<R>>& glass, const Knows& knows) {
+                       PerNode<OverGlass<R>>& glass, bool same, const Knows& knows) {
   for (int base = 0; base < int(layout.nodes().size()); ++base) {
     if (!coats.starts_at(base)) continue;
     CoatAbove<R>& coat = coats[base];
-    bool asked = false;
+    bool asked = same;
     for_each_below(layout, params, coats, base, [&](int node, const Spectrum<R>& weight) {
       const Layout::Node& n = layout.nodes()[node];
       const int below = coat_base(n);

@@ -28,6 +28,8 @@ class Layout {
     std::int32_t param_count = 0;  ///< numbers, not arguments
     std::int32_t child_count = 0;
     std::int32_t children[2] = {0, 0};  ///< nodes, each before this one
+
+    bool operator==(const Node&) const = default;
   };
 
   /// The empty layout: scatters nothing.

@@ -453,6 +453,12 @@ TEST_CASE("a choice that was made for other materials changes nothing") {
       coat(coloured_metal(0.8, 1, 0.3), glossy(1, 20), 0, 0, 1.6),
       coat(film_conductor(0.2, 3.4, 1.5, 3e-7, 5e-7, 0.3), glossy(1, 20), 0, 0, 1.6),
       coat(glossy(1, 9), matte(1), 0, 0, 1),
+      coat(microfacet(1, 0.3), dielectric(1.5, 0.3), 0, 0, 1.6),
+      coat(microfacet(1, 0.3), dielectric(1.5, 0.3), 0, 0, 1.7),
+      coat(microfacet(1, 0.3), dielectric(1.5, 0.35), 0, 0, 1.7),
+      coat(microfacet(1, 0.3), interface(Lobe::PhongGlass, 1.5, 1e3, 1, 1), 0, 0, 1.7),
+      coat(mirror(1), dielectric(1.5, 0.3), 0, 0, 1.6),
+      coat(microfacet(1, 0.3), coat(mirror(1), dielectric(1.5, 0.3), 0, 0, 1.2), 0, 0, 1.6),
       // One node each, at one place.
       microfacet(1, 0.3), microfacet(0.5, 0.3), microfacet(0.5, 0.4), microfacet(0.5, 0.4, 0.7),
       beckmann(0.5, 0.4, 0.7), conductor(0.2, 3.4, 0.3), coloured_metal(0.2, 3.4, 0.3),
