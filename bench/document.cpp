@@ -3,10 +3,28 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
 namespace mms::bench {
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  std::string name = "unknown", family = "?";
+  for (std::string line; std::getline(info, line) && !line.empty();) {
+    const std::string value = line.substr(std::min(line.size(), line.find(':') + 2));
+    if (line.starts_with("model name")) name = value;
+    if (line.starts_with("cpu family")) family = value;
+  }
+  return fmt::format("{} (family {})", name, family);
+}
+
+std::string load() {
+  std::ifstream file("/proc/loadavg");
+  std::string one;
+  return file >> one ? one : "unknown";
+}
 
 bool write_part(std::string_view name, std::string_view text) {
   const std::string path = MMS_SOURCE_DIR "/docs/performance.md";

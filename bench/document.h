@@ -10,6 +10,12 @@
 
 namespace mms::bench {
 
+/// The name of the processor, as the system says it.
+std::string processor();
+
+/// How many processes wanted to run in the last minute; ours is one.
+std::string load();
+
 /// Puts `text` in place of the part `name` of docs/performance.md, or at its end if there is none.
 /// False, with a message on standard error, where the file cannot be written.
 bool write_part(std::string_view name, std::string_view text);

@@ -256,6 +256,7 @@ std::string table_of(const std::vector<Row>& all) {
 }
 
 std::string document() {
+  const std::string table = table_of(rows());
   return fmt::format(
       "## Materials, ns a hit\n\nAll eight wavelengths of a hit in float, the choice among parts "
       "included: the median of {} rounds, of all\nmaterials in turn, over {} hits, half of whose "
@@ -264,8 +265,9 @@ std::string document() {
       "coats, rough metal\nand rough glass are along all directions is kept from hit to hit, as "
       "along paths. `error` is how far f in float is from f in\ndouble at the same numbers, in "
       "units of 2^-24 of it; of models that are ideally "
-      "specular, so are weights of samples. `./run bench`, or `bench_materials` alone.\n\n{}",
-      kRounds, kHits, table_of(rows()));
+      "specular, so are weights of samples. `./run bench`, or `bench_materials` alone. {}, load "
+      "average {}.\n\n{}",
+      kRounds, kHits, processor(), load(), table);
 }
 
 }  // namespace

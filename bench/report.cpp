@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <thread>
+
+#include "bench/document.h"
 
 namespace mms::bench {
 namespace {
@@ -22,25 +23,6 @@ std::string ratio(const Series& a, const Series& b) {
   if (a.empty()) return "";
   const Series r = ratios(a, b);
   return fmt::format("{:.2f} [{:.2f}, {:.2f}]", median(r), quantile(r, 0.25), quantile(r, 0.75));
-}
-
-/// The name of the processor, as the system says it.
-std::string processor() {
-  std::ifstream info("/proc/cpuinfo");
-  std::string name = "unknown", family = "?";
-  for (std::string line; std::getline(info, line) && !line.empty();) {
-    const std::string value = line.substr(std::min(line.size(), line.find(':') + 2));
-    if (line.starts_with("model name")) name = value;
-    if (line.starts_with("cpu family")) family = value;
-  }
-  return fmt::format("{} (family {})", name, family);
-}
-
-/// How many processes wanted to run in the last minute; ours is one.
-std::string load() {
-  std::ifstream file("/proc/loadavg");
-  std::string one;
-  return file >> one ? one : "unknown";
 }
 
 std::string speed_table(const Results& results) {

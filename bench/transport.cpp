@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <utility>
@@ -31,14 +30,6 @@ double mean_luminance(const renderer::Film& film) {
   double sum = 0;
   for (const auto& xyz : film.xyz) sum += xyz[1];
   return sum / double(film.xyz.size());
-}
-
-/// Others that held the machine while a figure of two threads was taken.
-std::string load() {
-  std::ifstream in("/proc/loadavg");
-  std::string first;
-  in >> first;
-  return first;
 }
 
 // Scripts against C++

@@ -124,30 +124,34 @@ class Bsdf {
     PerNode<Spectrum<R>> probability;  ///< of lobes only
     bool any = false;                  ///< the hero has something to choose from
     Frames<R> frames;                  ///< of parts
-    CoatTree<R> coats;                 ///< where there is more than one node
-    PerNode<OverGlass<R>> glass;       ///< of coats that are over glass
-    /// The mean of what each sends back spread, seen from outside and from inside, where it is
-    /// known of this material.
-    PerNode<Spectrum<R>> mean_spread[2];
-    std::bitset<kMaxNodes> spread_known[2];
-    KnownMaterial<R> material;
-    SolvedPerNode<UnderCoats<R>> under;   ///< of lobes that have several coats above or are of one
-    std::bitset<kMaxNodes> solved;        ///< for which nodes `under` is asked
-    SolvedPerNode<MeanThrough<R>> means;  ///< of Lambert lobes that have coats above
-    PerNode<Spectrum<R>> scaling;         ///< g along `wo`, of lobes known under coats or in one
-    /// What models with a function `solved` said, and of `wo`.
-    std::tuple<SolvedPerNode<SolvedModel<R, FacetsSolved<R>>>,
-               SolvedPerNode<SolvedModel<R, typename Dielectric<R>::Solved>>,
-               SolvedPerNode<SolvedModel<R, typename FilmDielectric<R>::Solved>>>
-        models;
+    PerNode<Spectrum<R>> scaling;      ///< g along `wo`, of lobes known under coats or in one
+    /// What models with a function `solved` said of `wo`.
     std::tuple<PerNode<FacetsSeen<R>>, PerNode<typename Dielectric<R>::Seen>,
                PerNode<typename FilmDielectric<R>::Seen>>
         seen;
 
+    // Kept while the material is the same, but for what coats do along `wo`; where there is more
+    // than one node.
+    KnownMaterial<R> material;
+    CoatTree<R> coats;
+    PerNode<OverGlass<R>> glass;  ///< of coats that are over glass
+    /// The mean of what each sends back spread, seen from outside and from inside, where known.
+    PerNode<Spectrum<R>> mean_spread[2];
+    std::bitset<kMaxNodes> spread_known[2];
+    std::bitset<kMaxNodes> solved;  ///< for which nodes `under` is asked
+
+    // Kept while what they are of is the same, of whatever material.
+    SolvedPerNode<UnderCoats<R>> under;   ///< of lobes that have several coats above or are of one
+    SolvedPerNode<MeanThrough<R>> means;  ///< of Lambert lobes that have coats above
+    std::tuple<SolvedPerNode<SolvedModel<R, FacetsSolved<R>>>,
+               SolvedPerNode<SolvedModel<R, typename Dielectric<R>::Solved>>,
+               SolvedPerNode<SolvedModel<R, typename FilmDielectric<R>::Solved>>>
+        models;
+
     const UnderCoats<R>* solution(int node) const { return solved[node] ? &under[node] : nullptr; }
   };
   /// For all that comes along `wo`: made once where one `wo` meets many `wi`. What a choice was
-  /// before, of any material, saves time where coats, rough metal and rough glass are the same.
+  /// before saves time where the material is the same, or its coats, rough metal and rough glass.
   void choose(Vec3<R> wo, Choice& choice) const;
   Choice choose(Vec3<R> wo) const {
     Choice choice;
@@ -180,7 +184,9 @@ class Bsdf {
   std::optional<BsdfSample<R>> sample_smooth(int lobe, Vec3<R> wo, R u, R u1, R u2, Mode mode,
                                              const Choice& choice) const;
 
-  void find_coated_glass(Vec3<R> wo, Choice& choice) const;
+  /// What is alike along all directions, where there is more than one node.
+  void know_material(Choice& choice) const;
+  void see_coated_glass(Vec3<R> wo, Choice& choice) const;
   /// Over what a coat right above node `base` lies, light along `w`, of the surface's frame, being
   /// seen.
   Sent<R> sent_back(int base, Vec3<R> w, const Choice& choice) const;

@@ -236,8 +236,9 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
   }
   Spectrum<R> sum;
   choice.frames.find(*layout_, params_, wo);
-  find_coats(*layout_, params_, choice.frames, wo, choice.coats);
-  if (layout_->transmits()) find_coated_glass(wo, choice);
+  if (!choice.material.is(*layout_, params_)) know_material(choice);
+  see_coats(*layout_, params_, choice.frames, wo, choice.coats);
+  if (layout_->transmits()) see_coated_glass(wo, choice);
   weigh_for_choice(*layout_, params_, choice.frames, wo, &choice.coats, choice.probability);
   for (int i = 0; i < node_count(); ++i) {
     const OverGlass<R>* glass = over_glass(i, choice);
@@ -247,34 +248,53 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
   for (int j = 0; j < kWavelengths; ++j) sum[j] = sum[j] > least ? 1 / sum[j] : R(0);
   for (int i = 0; i < node_count(); ++i) probability[i] *= sum;
   choice.any = sum[0] > 0;
+  for (int i = 0; i < node_count(); ++i) {
+    const NodeAbove& above = choice.coats.above.of[i];
+    if (!above.any()) continue;
+    const Vec3<R> w = choice.frames.seen(i, wo);
+    with_model(i, 0, [&](const auto& model) {
+      if constexpr (requires { model.coated(w); }) {
+        if (!detail::is_specular(model))
+          choice.scaling.of[i] =
+              coated_scaling(choice.coats, above, choice.solution(i), model.coated(w),
+                             above.coated() ? choice.coats[above.base].through_o : Spectrum<R>());
+      } else if constexpr (requires { model.coated(w, 0); }) {
+        if (!detail::is_specular(model) && above.once_base >= 0)
+          choice.scaling.of[i] = bent_scaling(choice.coats, above, choice.solution(i), model, w);
+      }
+      return 0;
+    });
+  }
+}
+
+template <class R>
+void Bsdf<R>::know_material(Choice& choice) const {
+  choice.material.keep(*layout_, params_);
+  find_coats(*layout_, params_, choice.coats);
+  if (layout_->transmits())
+    find_glass(
+        *layout_, params_, choice.coats, choice.glass, [&](int lobe, const CoatsOnGlass<R>& coats) {
+          return with_model(
+              lobe, false, [&](const auto& model) { return detail::knows_coats<R>(model, coats); });
+        });
+  for (auto& known : choice.spread_known) known.reset();
   choice.solved.reset();
   for (int i = 0; i < node_count(); ++i) {
     const NodeAbove& above = choice.coats.above.of[i];
-    const bool part = above.part_of >= 0;
-    if (!part && above.matte_base < 0) continue;
-    const Vec3<R> w = choice.frames.seen(i, wo);
+    const auto solve = [&](const CoatedLobe<R>& lobe) {
+      if (!above.any() || !is_solved_for(choice.coats, above)) return;
+      choice.under.solve(i, lobe.round(), coats_above(choice.coats, above, lobe.broad()));
+      choice.solved.set(i);
+    };
     with_model(i, 0, [&](const auto& model) {
+      const Vec3<R> up{0, 0, 1};  // lobes are as wide along any direction
       if constexpr (detail::kLambert<R, std::decay_t<decltype(model)>>) {
         if (const int base = above.matte_base; base >= 0)
           choice.coats[base].mean = mean_through_coats(i, base, choice);
-      }
-      if (!part && !above.coated()) return 0;
-      const auto solve = [&](const CoatedLobe<R>& lobe) {
-        if (!is_solved_for(choice.coats, above)) return;
-        choice.under.solve(i, lobe.round(), coats_above(choice.coats, above, lobe.broad()));
-        choice.solved.set(i);
-      };
-      if constexpr (requires { model.coated(w); }) {
-        if (detail::is_specular(model)) return 0;
-        const CoatedLobe<R> lobe = model.coated(w);
-        solve(lobe);
-        choice.scaling.of[i] =
-            coated_scaling(choice.coats, above, choice.solution(i), lobe,
-                           above.coated() ? choice.coats[above.base].through_o : Spectrum<R>());
-      } else if constexpr (requires { model.coated(w, 0); }) {
-        if (detail::is_specular(model) || above.once_base < 0) return 0;
-        solve(model.coated(w, 0));
-        choice.scaling.of[i] = bent_scaling(choice.coats, above, choice.solution(i), model, w);
+      } else if constexpr (requires { model.coated(up); }) {
+        if (!detail::is_specular(model)) solve(model.coated(up));
+      } else if constexpr (requires { model.coated(up, 0); }) {
+        if (!detail::is_specular(model) && above.once_base >= 0) solve(model.coated(up, 0));
       }
       return 0;
     });
@@ -289,18 +309,7 @@ Spectrum<R> Bsdf<R>::mean_through_coats(int lobe, int base, Choice& choice) cons
 }
 
 template <class R>
-void Bsdf<R>::find_coated_glass(Vec3<R> wo, Choice& choice) const {
-  const bool same = choice.material.is(*layout_, params_);
-  if (!same) {
-    choice.material.keep(*layout_, params_);
-    for (auto& known : choice.spread_known) known.reset();
-  }
-  find_glass(*layout_, params_, choice.coats, choice.glass, same,
-             [&](int lobe, const CoatsOnGlass<R>& coats) {
-               return with_model(lobe, false, [&](const auto& model) {
-                 return detail::knows_coats<R>(model, coats);
-               });
-             });
+void Bsdf<R>::see_coated_glass(Vec3<R> wo, Choice& choice) const {
   for (int i = 0; i < node_count(); ++i) {
     if (!choice.coats.starts_at(i) || !choice.coats[i].over_glass) continue;
     OverGlass<R>& glass = choice.glass.of[i];
@@ -439,7 +448,7 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
           return coated_weight(choice.coats, above, counted, w.other, choice.scaling.of[i], g_i);
         };
         if constexpr (requires { model.coated(wi); }) {
-          if (above.part_of >= 0 || above.coated()) {
+          if (above.any()) {
             const CoatedLobe<R> lobe = model.coated(choice.frames.seen(i, wi));
             total.f += l.f * coated(w.bare, coated_scaling(choice.coats, above, choice.solution(i),
                                                            lobe, w.through_i));

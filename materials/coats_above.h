@@ -46,6 +46,8 @@ struct NodeAbove {
   int part_of = -1;     ///< the coat of whose known lobes this node is one, or some
 
   bool coated() const { return base >= 0; }
+  /// Whether a coat lies above it, or it is a part of one.
+  bool any() const { return coated() || part_of >= 0; }
 };
 
 /// What the numbers of a coat are made of.
@@ -87,19 +89,22 @@ class SolvedCoat {
   std::optional<Spectrum<R>> mean_through_;
 };
 
-/// A coat, where light is seen along one direction.
+/// A coat.
 template <class R>
 struct CoatAbove {
   CoatKind<R> kind{};
-  int upper = -1;            ///< the coat right above this one, if there is one
-  const R* layer = nullptr;  ///< the numbers of its `coat`, if it is one
-  bool over_glass = false;   ///< what passes it once is all or a part of what lies right below
-  CoatAlong<R> o{};
-  Spectrum<R> through_o{};  ///< what is left of light by all coats that count together
-  Spectrum<R> mean{};       ///< of that over the hemisphere, where Lambert lobes lie right below
+  int upper = -1;           ///< the coat right above this one, if there is one
+  bool over_glass = false;  ///< what passes it once is all or a part of what lies right below
   Spectrum<R> glass{};      ///< their share, with those below further coats that count together
   /// Whether at wavelength j it counts together with those above.
   std::array<bool, kWavelengths> nested{};
+  /// The mean over the hemisphere of `through_o`, where Lambert lobes lie right below.
+  Spectrum<R> mean{};
+
+  // Along a direction (see_coats).
+  const R* layer = nullptr;  ///< the numbers of its `coat`, if it is one
+  CoatAlong<R> o{};
+  Spectrum<R> through_o{};  ///< what is left of light by all coats that count together
 };
 
 /// The same of what takes long to solve for: kept where the next time asks for no other.
@@ -342,11 +347,10 @@ inline Coats<R> coats_above(const CoatTree<R>& coats, const NodeAbove& above,
   return all;
 }
 
-/// The coats of a layout, where light is seen along `wo`. What they were before, of any layout,
-/// saves time where coats are the same.
+/// The coats of a material. What they were before, of any material, saves time where coats are the
+/// same.
 template <class R>
-inline void find_coats(const Layout& layout, const R* params, const Frames<R>& frames, Vec3<R> wo,
-                       CoatTree<R>& coats) {
+inline void find_coats(const Layout& layout, const R* params, CoatTree<R>& coats) {
   const auto nodes = layout.nodes();
   auto& above = coats.above.of;
   above[nodes.size() - 1] = {};
@@ -355,39 +359,51 @@ inline void find_coats(const Layout& layout, const R* params, const Frames<R>& f
     const R* p = params + node.first_param;
     for (int c = 0; c < node.child_count; ++c) above[node.children[c]] = above[i];
     const int a = node.children[0], b = node.children[1];
-    const auto coated = [&](int base, int lobes, const R* ior, const Films<R>& films,
-                            const R* layer) {
+    const auto coated = [&](int base, int lobes, const R* ior, const Films<R>& films) {
       if (std::all_of(ior, ior + kWavelengths, [](R n) { return n == 1; }) &&
           std::none_of(films.begin(), films.end(), [](const Film<R>& f) { return f.there(); }))
         return;
       const int upper = above[i].base;
       above[base] = {.base = base, .matte_base = base};
-      CoatAbove<R>& coat = coats[base] = {
-          .kind = detail::coat_kind(layout, params, lobes), .upper = upper, .layer = layer};
+      CoatAbove<R>& coat =
+          coats[base] = {.kind = detail::coat_kind(layout, params, lobes), .upper = upper};
       CoatGiven<R> given{{}, films, coat.kind.held, coat.kind.even, {}};
       std::copy_n(ior, kWavelengths, given.ior.v.begin());
       for (int j = 0; upper >= 0 && j < kWavelengths; ++j)
         if (const CoatNumbers<R>& over = coats.numbers(upper); over.eta[j] > 1)
           given.least[j] = over.least_below(j);
       const CoatNumbers<R>& numbers = coats.solved.solve(base, given).numbers();
-      coat.o = {numbers, std::abs(frames.seen(i, wo).z)};
-      coat.through_o = coat.o.through;
-      for (int j = 0; upper >= 0 && j < kWavelengths; ++j) {
+      for (int j = 0; upper >= 0 && j < kWavelengths; ++j)
         coat.nested[j] = numbers.eta[j] > 1 && coats.numbers(upper).eta[j] > 1;
-        if (coat.nested[j]) coat.through_o[j] *= coats[upper].through_o[j];
-      }
       if (coat.kind.known) above[lobes].part_of = base;
     };
     if (node.lobe == Lobe::FresnelMix)
-      coated(a, b, p, {}, nullptr);
+      coated(a, b, p, {});
     else if (node.lobe == Lobe::FilmMix)
-      coated(a, b, p, detail::films(p + kWavelengths), nullptr);
+      coated(a, b, p, detail::films(p + kWavelengths));
     else if (node.lobe == Lobe::Coat)
-      coated(b, a, p + 1 + kWavelengths, {}, p);
+      coated(b, a, p + 1 + kWavelengths, {});
     else if (node.lobe == Lobe::Layer && layout.unturned(a).lobe == Lobe::Sheen)
       above[b] = {};
     else if (node.lobe == Lobe::Tilt)
       above[a] = {.matte_base = above[i].matte_base};
+  }
+}
+
+/// What they do to light along `wo`.
+template <class R>
+inline void see_coats(const Layout& layout, const R* params, const Frames<R>& frames, Vec3<R> wo,
+                      CoatTree<R>& coats) {
+  const auto nodes = layout.nodes();
+  for (int i = int(nodes.size()) - 1; i >= 0; --i) {
+    const int base = coat_base(nodes[i]);
+    if (base < 0 || !coats.starts_at(base)) continue;
+    CoatAbove<R>& coat = coats[base];
+    coat.layer = nodes[i].lobe == Lobe::Coat ? params + nodes[i].first_param : nullptr;
+    coat.o = {coats.numbers(base), std::abs(frames.seen(i, wo).z)};
+    coat.through_o = coat.o.through;
+    for (int j = 0; j < kWavelengths; ++j)
+      if (coat.nested[j]) coat.through_o[j] *= coats[coat.upper].through_o[j];
   }
 }
 
@@ -482,14 +498,14 @@ inline void for_each_below(const Layout& layout, const R* params, const CoatTree
 }
 
 /// Which coats are over glass, and which lobes get the weight of glass: those of which
-/// `knows(lobe, coats)` is true. Of a material that is the `same` as before, so are the laws.
+/// `knows(lobe, coats)` is true.
 template <class R, class Knows>
 inline void find_glass(const Layout& layout, const R* params, CoatTree<R>& coats,
-                       PerNode<OverGlass<R>>& glass, bool same, const Knows& knows) {
+                       PerNode<OverGlass<R>>& glass, const Knows& knows) {
   for (int base = 0; base < int(layout.nodes().size()); ++base) {
     if (!coats.starts_at(base)) continue;
     CoatAbove<R>& coat = coats[base];
-    bool asked = same;
+    bool asked = false;
     for_each_below(layout, params, coats, base, [&](int node, const Spectrum<R>& weight) {
       const Layout::Node& n = layout.nodes()[node];
       const int below = coat_base(n);
