@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <bitset>
-#include <memory>
+#include <new>
 #include <optional>
 
 #include "materials/coat.h"
@@ -113,10 +113,12 @@ struct SolvedPerNode {
   PerNode<T> solution;
   std::bitset<kMaxNodes> made;
 
+  SolvedPerNode() {}  // or a tuple of these would be zeroed, which takes long
+
   template <class... Asked>
   T& solve(int node, const Asked&... asked) {
     T& its = solution.of[node];
-    if (!made[node]) std::construct_at(&its);
+    if (!made[node]) ::new (&its) T;  // not zeroed
     if (!made[node] || !its.solves(asked...)) its.solve(asked...);
     made.set(node);
     return its;
