@@ -32,7 +32,6 @@
 #include <algorithm>
 #include <array>
 #include <bitset>
-#include <cassert>
 #include <cstring>
 #include <optional>
 #include <tuple>
@@ -57,9 +56,6 @@ struct BsdfSample {
   bool transmitted = false;  ///< wi and wo are on different sides
 };
 
-/// The numbers of a node, at most: `film_dielectric` has 43.
-inline constexpr int kMostNumbers = 6 * kWavelengths;
-
 /// A copy of a material, by which it is found again.
 template <class R>
 class KnownMaterial {
@@ -67,7 +63,6 @@ class KnownMaterial {
   void keep(const Layout& layout, const R* params) {
     count_ = int(layout.nodes().size());
     std::copy_n(layout.nodes().begin(), count_, nodes_.of.begin());
-    assert(layout.param_count() <= int(numbers_.size()));
     std::copy_n(params, layout.param_count(), numbers_.begin());
   }
   bool is(const Layout& layout, const R* params) const {
@@ -88,7 +83,6 @@ class SolvedModel {
  public:
   template <class Model>
   void solve(const Layout::Node& node, const R* params, const Model& model) {
-    assert(node.param_count <= kMostNumbers);
     lobe_ = node.lobe;
     std::copy_n(params + node.first_param, node.param_count, numbers_.begin());
     solved_ = model.solved();

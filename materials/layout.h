@@ -20,6 +20,9 @@
 
 namespace mms::materials {
 
+/// The numbers of a node, at most: `film_dielectric` has 43. Tests hold every row against it.
+inline constexpr int kMostNumbers = 6 * kWavelengths;
+
 class Layout {
  public:
   struct Node {

@@ -21,6 +21,10 @@ TEST_CASE("rows are complete and in order") {
     CHECK((rows[i].f32 == nullptr));
     const unsigned t = materials::traits(Lobe(i));
     const auto& f = materials::formals(Lobe(i));
+    int numbers = 0;
+    for (char kind : std::string_view(f.kinds, f.count))
+      numbers += kind == 's' ? kWavelengths : kind == 'r';
+    CHECK(numbers <= materials::kMostNumbers);
     const bool takes_material =
         std::string_view(f.kinds, f.count).find('m') != std::string_view::npos;
     CHECK(takes_material == ((t & materials::Combiner) != 0));
