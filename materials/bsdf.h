@@ -192,7 +192,7 @@ class Bsdf {
 
   /// `visit(model)` for the lobe of node `i`; `none` for combiners and phase functions.
   template <class Result, class Visit>
-  Result with_model(int i, Result none, Visit visit) const;
+  Result with_model(int i, Result none, const Visit& visit) const;
 
   bool node_is_specular(int i) const;
   int node_count() const { return int(layout_->nodes().size()); }

@@ -72,7 +72,8 @@ inline void see(const M& model, const Layout& layout, const R* params, Vec3<R> w
 }
 /// `visit(solved, seen)` of that.
 template <class R, class M, class Visit>
-inline auto with_seen(const M& model, int i, const typename Bsdf<R>::Choice& choice, Visit visit) {
+inline auto with_seen(const M& model, int i, const typename Bsdf<R>::Choice& choice,
+                      const Visit& visit) {
   using Solved = decltype(model.solved());
   using Seen = decltype(model.seen({}, model.solved()));
   return visit(std::get<SolvedPerNode<SolvedModel<R, Solved>>>(choice.models)[i].get(),
@@ -124,7 +125,7 @@ inline bool is_specular(const M& model) {
 
 template <class R>
 template <class Result, class Visit>
-Result Bsdf<R>::with_model(int i, Result none, Visit visit) const {
+Result Bsdf<R>::with_model(int i, Result none, const Visit& visit) const {
   const Layout::Node& node = layout_->nodes()[i];
   const R* p = params_ + node.first_param;
   switch (node.lobe) {
