@@ -9,9 +9,11 @@
 
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <random>
 #include <string_view>
+#include <utility>
 
 #include "api/outputs.h"
 #include "bench/document.h"
@@ -215,6 +217,13 @@ Row row_of(std::string_view text, const Made& made) {
       {batch(evaluate), batch(pdf), batch(sample), single(evaluate), single(pdf), single(sample)}};
 }
 
+/// Of surfaces' materials.
+std::vector<Row> rows_of(const std::vector<std::string>& texts) {
+  std::vector<Row> all;
+  for (const std::string& text : texts) all.push_back(row_of<Surface>(text, make(text, false)));
+  return all;
+}
+
 std::vector<Row> rows() {
   std::vector<Row> all;
   for (const vm::Builtin& row : materials::rows()) {
@@ -224,14 +233,8 @@ std::vector<Row> rows() {
     all.push_back(volume ? row_of<materials::Phase>(row.example, made)
                          : row_of<Surface>(row.example, made));
   }
-  for (const char* text : kVariants) all.push_back(row_of<Surface>(text, make(text, false)));
-  return all;
-}
-
-/// Of surfaces' materials.
-std::vector<Row> rows_of(const std::vector<std::string>& texts) {
-  std::vector<Row> all;
-  for (const std::string& text : texts) all.push_back(row_of<Surface>(text, make(text, false)));
+  for (Row& variant : rows_of({std::begin(kVariants), std::end(kVariants)}))
+    all.push_back(std::move(variant));
   return all;
 }
 
