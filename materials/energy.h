@@ -224,11 +224,12 @@ inline R towards_normal(R x, R alpha) {
   return x - R(0.3) * alpha * (x - (1 - std::sqrt(std::max(1 - x, R(0)))));
 }
 
-/// From 0 to 1, as x is, but as a cubic root about `at`.
+/// `x` with `share` parts of what is as a cubic root about `at`, where y is that, over 1 + `share`:
+/// all of these from 0 to 1.
 template <class R>
-inline R crowded(R x, R at) {
-  const R from = std::cbrt(at);
-  return (std::cbrt(x - at) + from) / (std::cbrt(1 - at) + from);
+inline R crowded(R x, R share, R y, R at) {
+  const R from = std::cbrt(at), root = (std::cbrt(y - at) + from) / (std::cbrt(1 - at) + from);
+  return (x + share * root) / (1 + share);
 }
 
 /// The same of stretched facets, from that of round ones, `x`. Steep ones of GGX are so many that
@@ -240,7 +241,7 @@ inline R bent_direction(R x, R z, R s, R alpha, R eta, R kink) {
   if (!(eta < 1)) return towards_normal(towards_grazing(x), alpha);
   if (kink == 0) return towards_normal(x, alpha);
   const R at = angle(eta, std::sqrt((1 - eta) * (1 + eta)));
-  return towards_grazing((x + kink * crowded(angle(z, s), at)) / (1 + kink));
+  return towards_grazing(crowded(x, kink, angle(z, s), at));
 }
 
 /// Of the relative index `eta`: 0 at 1, towards 1 for 0 and infinity. Next to 1, Fresnel's factor
@@ -265,7 +266,7 @@ template <class R>
 inline R bent_index(R eta, R kink) {
   constexpr R there = R(0.648247), share = R(0.5);
   const R x = bent_index(eta);
-  return kink == 0 || !(eta < 1) ? x : (x + share * crowded(x, there)) / (1 + share);
+  return kink == 0 || !(eta < 1) ? x : crowded(x, share, x, there);
 }
 
 /// How much azimuths of stretched facets are widened next to the narrower axis (Shape): losses
