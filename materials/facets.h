@@ -81,7 +81,8 @@ struct Ggx : Alpha<R> {
   static const CoatedTables& coated() { return kGgxCoated; }
 };
 
-/// The value at `x` of the polynomial of these coefficients, of the highest power first.
+/// The value at `x` of the polynomial of these coefficients, of the highest power first. Not fused
+/// as that of base/exponential.h is: a call for each term, where not every processor has it.
 template <class R, int N>
 inline R polynomial(R x, const double (&coefficients)[N]) {
   R sum = 0;

@@ -92,8 +92,9 @@ struct FilmedLoss {
     const bool falls = loss.eta < 1;
     const R z = std::abs(w.z), s = std::sqrt(w.x * w.x + w.y * w.y);
     const StretchedInterface<R> f = loss.stretched({w.x, w.y, z});
-    const R alpha = loss.ax == loss.ay ? loss.ax : f.like();
-    const R place = interface_direction(z, s, alpha, loss.eta);
+    const bool round = loss.ax == loss.ay;
+    const R alpha = round ? loss.ax : f.like();
+    const R place = round ? loss.same.direction(z, s) : interface_direction(z, s, alpha, loss.eta);
     const auto add = [&](R* to, int of_each, const float* table, const Stencil<R>& width,
                          int indices, int directions) {
       const int n2 = of_each * kFilmTerms, n1 = n2 * coefficients(directions),
@@ -104,7 +105,7 @@ struct FilmedLoss {
     };
     add(sums, 1, tables.loss[falls], Stencil<R>::at(interface_alpha(alpha), kFilmAlpha), kFilmIndex,
         kFilmDirection[falls]);
-    if (loss.ax == loss.ay) return;
+    if (round) return;
     const BentGrid& grid = kFilmBent[falls];
     R shapes[ShapeBasis<R>::terms(kFilmBent[1].degree) * kFilmTerms] = {};
     const int terms = ShapeBasis<R>::terms(grid.degree);
