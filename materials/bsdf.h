@@ -34,7 +34,7 @@
 #include <bitset>
 #include <cstring>
 #include <optional>
-#include <tuple>
+#include <variant>
 
 #include "materials/coats_above.h"
 #include "materials/dielectric.h"
@@ -56,48 +56,65 @@ struct BsdfSample {
   bool transmitted = false;  ///< wi and wo are on different sides
 };
 
-/// A copy of a material, by which it is found again.
+/// A copy of numbers, at most `kMost`, by which they are found again.
+template <class R, int kMost>
+class KnownNumbers {
+ public:
+  void keep(const R* numbers, int count) { std::copy_n(numbers, count, numbers_.begin()); }
+  bool are(const R* numbers, int count) const {
+    return std::memcmp(numbers, numbers_.data(), count * sizeof(R)) == 0;
+  }
+
+ private:
+  std::array<R, kMost> numbers_;
+};
+
+/// The same of a material.
 template <class R>
 class KnownMaterial {
  public:
   void keep(const Layout& layout, const R* params) {
     count_ = int(layout.nodes().size());
     std::copy_n(layout.nodes().begin(), count_, nodes_.of.begin());
-    std::copy_n(params, layout.param_count(), numbers_.begin());
+    numbers_.keep(params, layout.param_count());
   }
   bool is(const Layout& layout, const R* params) const {
     return std::equal(layout.nodes().begin(), layout.nodes().end(), nodes_.of.begin(),
                       nodes_.of.begin() + count_) &&
-           std::memcmp(params, numbers_.data(), layout.param_count() * sizeof(R)) == 0;
+           numbers_.are(params, layout.param_count());
   }
 
  private:
   int count_ = 0;
   PerNode<Layout::Node> nodes_;
-  std::array<R, kMaxNodes * kMostNumbers> numbers_;
+  KnownNumbers<R, kMaxNodes * kMostNumbers> numbers_;
 };
 
 /// What of a node's model is alike along all directions, and the numbers that it is of.
-template <class R, class Solved>
+template <class R>
 class SolvedModel {
  public:
   template <class Model>
   void solve(const Layout::Node& node, const R* params, const Model& model) {
     lobe_ = node.lobe;
-    std::copy_n(params + node.first_param, node.param_count, numbers_.begin());
+    numbers_.keep(params + node.first_param, node.param_count);
     solved_ = model.solved();
   }
   template <class Model>
   bool solves(const Layout::Node& node, const R* params, const Model&) const {
-    return node.lobe == lobe_ && std::memcmp(params + node.first_param, numbers_.data(),
-                                             node.param_count * sizeof(R)) == 0;
+    return node.lobe == lobe_ && numbers_.are(params + node.first_param, node.param_count);
   }
-  const Solved& get() const { return solved_; }
+  /// \pre the last model that was solved for said that
+  template <class Solved>
+  const Solved& get() const {
+    return *std::get_if<Solved>(&solved_);
+  }
 
  private:
   Lobe lobe_{};
-  std::array<R, kMostNumbers> numbers_;
-  Solved solved_;
+  KnownNumbers<R, kMostNumbers> numbers_;
+  std::variant<FacetsSolved<R>, typename Dielectric<R>::Solved, typename FilmDielectric<R>::Solved>
+      solved_;
 };
 
 /// Of float and double; materials/bsdf_definitions.h for other numbers.
@@ -119,10 +136,7 @@ class Bsdf {
     bool any = false;                  ///< the hero has something to choose from
     Frames<R> frames;                  ///< of parts
     PerNode<Spectrum<R>> scaling;      ///< g along `wo`, of lobes known under coats or in one
-    /// What models with a function `solved` said of `wo`.
-    std::tuple<PerNode<FacetsSeen<R>>, PerNode<typename Dielectric<R>::Seen>,
-               PerNode<typename FilmDielectric<R>::Seen>>
-        seen;
+    PerNode<FacetsSeen<R>> seen;       ///< what models with a function `solved` said of `wo`
 
     // Kept while the material is the same, but for what coats do along `wo`; where there is more
     // than one node.
@@ -137,10 +151,7 @@ class Bsdf {
     // Kept while what they are of is the same, of whatever material.
     SolvedPerNode<UnderCoats<R>> under;   ///< of lobes that have several coats above or are of one
     SolvedPerNode<MeanThrough<R>> means;  ///< of Lambert lobes that have coats above
-    std::tuple<SolvedPerNode<SolvedModel<R, FacetsSolved<R>>>,
-               SolvedPerNode<SolvedModel<R, typename Dielectric<R>::Solved>>,
-               SolvedPerNode<SolvedModel<R, typename FilmDielectric<R>::Solved>>>
-        models;
+    SolvedPerNode<SolvedModel<R>> models;
 
     const UnderCoats<R>* solution(int node) const { return solved[node] ? &under[node] : nullptr; }
   };

@@ -63,21 +63,15 @@ inline void see(const M& model, const Layout& layout, const R* params, Vec3<R> w
                 typename Bsdf<R>::Choice& choice) {
   if constexpr (requires { model.solved(); }) {
     using Solved = decltype(model.solved());
-    using Seen = decltype(model.seen(wo, Solved()));
-    const Solved& solved = std::get<SolvedPerNode<SolvedModel<R, Solved>>>(choice.models)
-                               .solve(i, layout.nodes()[i], params, model)
-                               .get();
-    std::get<PerNode<Seen>>(choice.seen).of[i] = model.seen(wo, solved);
+    const SolvedModel<R>& its = choice.models.solve(i, layout.nodes()[i], params, model);
+    choice.seen.of[i] = model.seen(wo, its.template get<Solved>());
   }
 }
 /// `visit(solved, seen)` of that.
 template <class R, class M, class Visit>
 inline auto with_seen(const M& model, int i, const typename Bsdf<R>::Choice& choice,
                       const Visit& visit) {
-  using Solved = decltype(model.solved());
-  using Seen = decltype(model.seen({}, model.solved()));
-  return visit(std::get<SolvedPerNode<SolvedModel<R, Solved>>>(choice.models)[i].get(),
-               std::get<PerNode<Seen>>(choice.seen).of[i]);
+  return visit(choice.models[i].template get<decltype(model.solved())>(), choice.seen.of[i]);
 }
 
 /// What the model of node `i` gives and takes, as `choice` has seen it. \pre CanBeSmooth

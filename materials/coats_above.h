@@ -113,7 +113,7 @@ struct SolvedPerNode {
   PerNode<T> solution;
   std::bitset<kMaxNodes> made;
 
-  SolvedPerNode() {}  // or a tuple of these would be zeroed, which takes long
+  SolvedPerNode() {}  // or `solution` would be zeroed where a choice is, which takes long
 
   template <class... Asked>
   T& solve(int node, const Asked&... asked) {

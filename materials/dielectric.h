@@ -64,17 +64,9 @@ struct InterfaceSolved {
   Spectrum<R> transmit[2];                             ///< share of that which goes to the far side
 };
 
-/// The same facets along one direction: what is found once for all that it meets.
-template <class R, class Face>
-struct InterfaceSeen {
-  R shadow = 0;      ///< |w.z| Lambda(w)
-  Spectrum<R> lost;  ///< by the first bounce
-};
-
 template <class R, template <class> class Distribution, class Face = BareFace<R>>
 struct RoughInterface {
   using Solved = InterfaceSolved<R, Face>;
-  using Seen = InterfaceSeen<R, Face>;
 
   const R* ior;
   Face face;
@@ -163,12 +155,12 @@ struct RoughInterface {
     return s;
   }
 
-  Seen seen(Vec3<R> wo, const Solved& solved) const {
+  FacetsSeen<R> seen(Vec3<R> wo, const Solved& solved) const {
     return {facets.shadow(wo), lost(wo, solved)};
   }
 
   Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Solved& solved,
-                    const Seen& seen) const {
+                    const FacetsSeen<R>& seen) const {
     const bool reflects = same_side(wo, wi);
     Lobes<R> out = reflects ? evaluate_reflection(wo, wi, seen.shadow)
                             : evaluate_transmission(wo, wi, seen.shadow, mode);
@@ -191,7 +183,7 @@ struct RoughInterface {
     return out;
   }
 
-  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const Solved& solved, const Seen& seen,
+  bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const Solved& solved, const FacetsSeen<R>& seen,
               Vec3<R>& wi) const {
     const Vec3<R> up = to_upper(wo, wo);
     const R lost = seen.lost[0];

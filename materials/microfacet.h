@@ -41,11 +41,11 @@ struct FacetsSolved {
   Spectrum<R> further = {};        ///< F of these bounces together
 };
 
-/// The same facets along one direction: what is found once for all that it meets.
+/// Facets along one direction: what is found once for all that it meets.
 template <class R>
 struct FacetsSeen {
-  R shadow = 0;  ///< |w.z| Lambda(w)
-  R loss = 0;    ///< to further bounces
+  R shadow = 0;           ///< |w.z| Lambda(w)
+  Spectrum<R> lost = {};  ///< by the first bounce, to further ones; of mirrors alike
 };
 
 /// Reflection by facets, alike for every wavelength but for Fresnel's factor.
@@ -79,7 +79,7 @@ struct RoughReflection {
   }
   FacetsSeen<R> seen(Vec3<R> wo) const {
     const Vec3<R> up = to_upper(wo, wo);
-    return {facets.shadow(up), loss().at(up)};
+    return {facets.shadow(up), Spectrum<R>(loss().at(up))};
   }
 
   Value evaluate(Vec3<R> wo, Vec3<R> wi, const FacetsSolved<R>& solved,
@@ -88,13 +88,14 @@ struct RoughReflection {
     if (!same_side(wo, wi)) return v;
     wi = to_upper(wi, wo);
     wo = to_upper(wo, wo);
-    v.multiple = seen.loss * loss().at(wi) / (kPi<R> * solved.mean);
-    v.pdf = seen.loss * solved.bounces.pdf(wi.z);
+    const R lost = seen.lost[0];
+    v.multiple = lost * loss().at(wi) / (kPi<R> * solved.mean);
+    v.pdf = lost * solved.bounces.pdf(wi.z);
     const HalfVector<R> half(wo, wi);
     const Vec3<R> h = half.h;
     if (!(h.z > 0)) return v;
     v.single = facets.density(h) * masking(facets, wo, seen.shadow, wi);
-    v.pdf += (1 - seen.loss) * visible(facets, wo, seen.shadow, h) / 4;
+    v.pdf += (1 - lost) * visible(facets, wo, seen.shadow, h) / 4;
     v.cos_h = half.cosine;
     return v;
   }
@@ -103,7 +104,7 @@ struct RoughReflection {
   bool sample(Vec3<R> wo, R u_lobe, R u1, R u2, const FacetsSolved<R>& solved,
               const FacetsSeen<R>& seen, Vec3<R>& wi) const {
     const Vec3<R> up = to_upper(wo, wo);
-    if (u_lobe < seen.loss) {
+    if (u_lobe < seen.lost[0]) {
       wi = solved.bounces.sample(u1, u2);
     } else {
       const Vec3<R> h = facets.sample_visible(up, u1, u2);
