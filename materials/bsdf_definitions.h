@@ -419,7 +419,8 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
   weigh(*layout_, params_, choice.frames, choice.coats, wo, wi, mode, weights);
   for (int i = 0; i < node_count(); ++i) {
     const OverGlass<R>* glass = over_glass(i, choice);
-    const R share = glass && same_side(wo, wi) ? choice.frames.share(i, wo, wi, mode) : R(0);
+    const bool spreads = glass && same_side(wo, wi) && !(glass->mean == Spectrum<R>());
+    const R share = spreads ? choice.frames.share(i, wo, wi, mode) : R(0);
     if (share > 0) {
       const int base = coat_base(layout_->nodes()[i]);
       const Spectrum<R> spread = sent_back(base, wi, choice).spread;
