@@ -358,16 +358,12 @@ Spectrum<R> Bsdf<R>::mean_spread(int base, bool inside, const Choice& choice) co
   for_each_below(*layout_, params_, choice.coats, base, [&](int i, const Spectrum<R>&) {
     if (choice.coats.above.of[i].once_base < 0) return;
     with_model(i, 0, [&](const auto& model) {
-      if constexpr (requires {
-                      model.facets;
-                      model.ior;
-                    }) {
+      if constexpr (requires { model.ior; })
         for (int j = 0; j < kWavelengths; ++j) {
           const R eta = relative_eta(model.ior[j], Vec3<R>{0, 0, R(inside ? -1 : 1)});
           at = std::max(at, (1 - eta) * (1 + eta));
         }
-        stretched |= model.facets.ax != model.facets.ay;
-      }
+      if constexpr (requires { model.facets; }) stretched |= model.facets.ax != model.facets.ay;
       return 0;
     });
   });

@@ -61,10 +61,11 @@
 /// as without a coat; seen from inside one random setting of anisotropy 1 in 400 is off by up to
 /// 2.5e-3. Below a polished coat under another of index below 1.03, 3e-3. Of `glossy_refraction`,
 /// of an index of at least 1, what changes sides gets g(wo) g(wi) of the directions outside, and
-/// what is sent back is the rest of T as a mirror: 1e-4. Under a film that is so for smooth
-/// interfaces and `glossy_refraction`. Rough `phong_glass`, rough glass of which a film is part or
-/// that is below one, and other indices, get min(T, T') as if both directions were outside, and
-/// lose up to a tenth about the critical angle.
+/// what is sent back is the rest of T as a mirror: 1e-4. Rough `phong_glass` of such an index loses
+/// what it does without a coat, within 1e-3 (materials/phong_coat.h). Under a film all that is so
+/// for smooth interfaces, `phong_glass` and `glossy_refraction`. Rough glass of which a film is
+/// part or that is below one, and other indices, get min(T, T') as if both directions were outside,
+/// and lose up to a tenth about the critical angle.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`:

@@ -19,7 +19,10 @@
 /// unit disc, by half, or beyond both. F is taken for 1 beyond the critical angle, which makes it
 /// one function of momentum; so albedo <= 1 from either side.
 
+#include "materials/coat.h"
 #include "materials/fresnel.h"
+#include "materials/glass_coat.h"
+#include "materials/phong_coat.h"
 #include "materials/radial.h"
 
 namespace mms::materials {
@@ -37,10 +40,29 @@ struct PhongGlass {
         transmitted(weight_at(p + 2 * kWavelengths + 1)) {}
 
   bool specular() const { return n > R(kMaxExponent); }
-  /// Materials/glass_coat.h.
+  /// Whether it is known what coats send back, `coats` being as in SentBack::smooth. They lie on
+  /// the side of the lower index then.
   template <class Coats>
   bool knows_coats(const Coats&) const {
-    return specular();
+    return specular() || std::all_of(ior, ior + kWavelengths, [](R its) {
+             return relative_eta(its, Vec3<R>{0, 0, 1}) >= 1;
+           });
+  }
+  /// That, of light along `w` (materials/phong_coat.h).
+  template <class Coats>
+  SentBack<R> sent_back(Vec3<R> w, const Coats& coats) const {
+    const SpecularTerms<R> smooth = terms(w);
+    if (specular()) return SentBack<R>::smooth(smooth, w, coats);
+    SentBack<R> back(w, smooth.eta);
+    const Broadness<R> broad = Broadness<R>::facets(std::sqrt(axes::phong_area(n)));
+    back.broad = broad.held + broad.even;
+    for (int j = 0; j < kWavelengths; ++j) {
+      const auto& law = coats.law[j];
+      if (!law.counts()) continue;
+      const bool same = repeated(j) && law == coats.law[j - 1] && !coats.filmed(j);
+      back.share[j] = same ? back.share[j - 1] : sent_back(w, smooth.eta[j], j, coats);
+    }
+    return back;
   }
 
   Spectrum<R> estimate(Vec3<R> wo) const {
@@ -57,8 +79,7 @@ struct PhongGlass {
     Lobes<R> out;
     const bool reflects = same_side(wo, wi);
     for (int j = 0; j < kWavelengths; ++j) {
-      if (j > 0 && ior[j] == ior[j - 1] && reflected[j] == reflected[j - 1] &&
-          transmitted[j] == transmitted[j - 1]) {
+      if (repeated(j)) {
         out.f[j] = out.f[j - 1];
         out.pdf[j] = out.pdf[j - 1];
         continue;
@@ -99,6 +120,34 @@ struct PhongGlass {
   }
 
  private:
+  /// All is as at the wavelength before.
+  bool repeated(int j) const {
+    return j > 0 && ior[j] == ior[j - 1] && reflected[j] == reflected[j - 1] &&
+           transmitted[j] == transmitted[j - 1];
+  }
+
+  /// At wavelength j; `eta` as in SpecularTerms.
+  template <class Coats>
+  R sent_back(Vec3<R> w, R eta, int j, const Coats& coats) const {
+    const bool outside = w.z > 0;
+    const R c = std::min(std::abs(w.z), R(1)), s = std::sqrt(w.x * w.x + w.y * w.y);
+    const FresnelSplit<R> o = fresnel_split(c, eta);
+    const R through_o = outside ? coats.split(j, c).transmitted : R(1);
+    const auto weights = phong_weights(n, outside ? s : s / eta);
+    R sent = 0;
+    for (int i = 0; i < kPhongPoints; ++i) {
+      const R z = R(phong_cosines()[i]);
+      const FresnelSplit<R> e = coats.split(j, z),
+                            there = fresnel_split(z, outside ? eta : 1 / eta);
+      sent +=
+          weights[i] * (outside ? (o.reflected + there.reflected) *
+                                      (through_o - glass_factor(true, true, through_o,
+                                                                e.transmitted, coats.law[j].normal))
+                                : (o.transmitted + there.transmitted) * e.reflected);
+    }
+    return limited(sent / 2, R(0), R(1)) * (outside ? reflected : transmitted)[j];
+  }
+
   R kernel(R p2) const {
     if (!(p2 < 1)) return 0;
     return (n + 2) / (2 * kPi<R>)*std::exp(n / 2 * std::log1p(-p2));

@@ -112,12 +112,12 @@ inline double brightest_through(const materials::Bsdf<double>& bsdf, Vec3d wo) {
   return best;
 }
 
-/// cos^2 of the critical angle of `glossy_refraction` on the side of z > 0 or z < 0, where it ends;
-/// 0 without any, and on the side of the lower index.
+/// cos^2 of the critical angle of `glossy_refraction` on the side of z > 0 or z < 0, where it ends,
+/// or of `phong_glass`, which has an edge there; 0 without any, and on the side of the lower index.
 inline double end_of_lobe(const materials::Layout& layout, const double* p, bool upper) {
   for (const auto& node : layout.nodes()) {
     const double n = p[node.first_param];
-    if (node.lobe == Lobe::GlossyRefraction && upper != (n > 1))
+    if ((node.lobe == Lobe::GlossyRefraction || node.lobe == Lobe::PhongGlass) && upper != (n > 1))
       return 1 - 1 / std::max(n * n, 1 / (n * n));
   }
   return 0;

@@ -146,6 +146,9 @@ std::vector<Case> smooth_cases() {
            ramp(0.1, 1), 1.7));
   lossless("two coats over glass",
            coat(mirror(1), fresnel_mix(dielectric(1.5, 0.4), mirror(1), 1.3), 0, 0, 1.7));
+  put("rough coat over phong_glass",
+      coat(microfacet(ramp(0.9, 1), 0.5), phong_glass(ramp(1.6, 1.4), 40, ramp(0.5, 1)), 0.2,
+           ramp(0.1, 1), 1.4));
   lossless("coat over glossy_through",
            coat(mirror(1), tinted(Lobe::GlossyThrough, 1, {15, 40}), 0, 0, ramp(1.4, 1.6)));
   lossless("coat over glossy_refraction",

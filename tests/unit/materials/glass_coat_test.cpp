@@ -322,6 +322,29 @@ TEST_CASE("glossy lobes that pass below coats are lossless within 1e-4, from bot
   MESSAGE("albedo - 1 from ", range.text());
 }
 
+TEST_CASE("phong_glass below coats loses what it does alone, from both sides" * kSum) {
+  double worst = 0;
+  for (int k = 1; k <= swept(60); ++k) {
+    const double glass = between(1.02, 3.9, place(k, 0.8192)), degrees = angle(k, glass);
+    const double n = between(2, 1000, place(k, 0.6710));
+    const Material base = phong_glass(glass, n);
+    const Coat upper = Coat::any(k, k % 3 == 0, 0.5497), lower = Coat::any(k + 1, k % 2, 0.3117);
+    // The lower one meets what the upper has refracted (materials/coat.h).
+    Coat below = lower;
+    below.shape = lower.shape.below(std::sqrt(1 - 1 / (upper.ior * upper.ior)), lower.ior);
+    const bool nested = k % 4 < 2;
+    const Vec3d wo = direction(degrees, 0.4);
+    const double bare = two_sided(base, wo, 1e-4);
+    const double through = wo.z < 0 ? 1 : upper.through(wo.z) * (nested ? below.through(wo.z) : 1);
+    const double a = two_sided(upper.over(nested ? lower.over(base) : base), wo, 1e-4);
+    const double error = a - (1 - through + through * bare);
+    worst = std::max(worst, std::abs(error));
+    CHECK_MESSAGE(std::abs(error) < 1e-3, text(glass, upper.ior, n, degrees),
+                  nested ? ", two coats: " : ": ", error);
+  }
+  MESSAGE("largest error of albedos: ", worst);
+}
+
 TEST_CASE("a mixture of glass and matte under a rough coat is lossless" * kSum) {
   for (const double share : {0.2, 0.7})
     for (double degrees : {0.0, 50.0, 85.0, 100.0, 130.0, 175.0}) {

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Computes the table of materials/phong_coat.h and writes it as C++ to the named file: run by the
+// build, in seconds.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/quadrature.h"
+#include "materials/phong_coat.h"
+#include "materials/tables/grid.h"
+
+namespace mms::materials::tables {
+namespace {
+
+/// Lagrange's polynomials over the points: of z = (1 + cos t) / 2, by Chebyshev's series.
+std::array<double, kPhongPoints> lagrange(double z) {
+  const double t = std::acos(std::clamp(2 * z - 1, -1.0, 1.0));
+  std::array<double, kPhongPoints> to;
+  for (int i = 0; i < kPhongPoints; ++i) {
+    double sum = 1;
+    for (int k = 1; k < kPhongPoints; ++k)
+      sum += 2 * std::cos(k * t) * std::cos(k * kPi<double> * (i + 0.5) / kPhongPoints);
+    to[i] = sum / kPhongPoints;
+  }
+  return to;
+}
+
+/// K of materials/phong_glass.h.
+struct Kernel {
+  double n;
+
+  double at(double p2) const {
+    return p2 < 1 ? (n + 2) / (2 * kPi<double>)*std::exp(n / 2 * std::log1p(-p2)) : 0;
+  }
+  /// Beyond this it has less than 1e-14 of its integral.
+  double reach() const { return std::sqrt(-std::expm1(-64 / (n + 2))); }
+  /// The integral over the azimuths of `p`, `momentum` away.
+  double around(double momentum, double p) const {
+    const double r = reach(), product = 2 * momentum * p;
+    const double least = momentum * momentum + p * p - r * r;
+    if (least >= product) return 0;
+    const double most = least <= -product ? kPi<double> : std::acos(least / product);
+    const double d = momentum - p;
+    return 2 * integrate<24>(
+                   [&](double phi) {
+                     const double s = std::sin(phi / 2);
+                     return at(d * d + 2 * product * s * s);
+                   },
+                   0, most);
+  }
+};
+
+std::array<double, kPhongPoints> weights(double n, double momentum) {
+  const Kernel kernel{n};
+  const double reach = kernel.reach();
+  // Where the circle of momenta enters the kernel's, and where it is all in it.
+  const double ends[] = {std::max(momentum - reach, 0.0), std::abs(reach - momentum),
+                         std::min(momentum + reach, 1.0)};
+  std::array<double, kPhongPoints> sum{};
+  const auto add = [&](double from, double to) {
+    constexpr int parts = 16, points = 8;
+    const double z0 = std::sqrt((1 - to) * (1 + to)), z1 = std::sqrt((1 - from) * (1 + from));
+    for (int part = 0; part < parts; ++part)
+      for (int k = 0; k < points; ++k) {
+        // Points crowd at both ends, where the circle's share begins as a root.
+        const double x = (part + gauss<points>().x[k]) / parts;
+        const double z = z0 + (z1 - z0) * x * x * (3 - 2 * x);
+        const double weight = gauss<points>().w[k] / parts * (z1 - z0) * 6 * x * (1 - x);
+        const double p = std::sqrt((1 - z) * (1 + z));
+        const auto terms = lagrange(z);
+        const double there = weight * z * kernel.around(momentum, p);
+        for (int i = 0; i < kPhongPoints; ++i) sum[i] += there * terms[i];
+      }
+  };
+  const double middle = std::min(ends[1], 1.0);
+  if (ends[0] < middle) add(ends[0], middle);
+  if (middle < ends[2]) add(middle, ends[2]);
+  return sum;
+}
+
+/// The argument in [from, to] at which a rising function has that value.
+template <class F>
+double inverse(const F& f, double value, double from, double to) {
+  for (int i = 0; i < 100; ++i) {
+    const double middle = (from + to) / 2;
+    (f(middle) < value ? from : to) = middle;
+  }
+  return (from + to) / 2;
+}
+
+std::vector<float> table() {
+  using namespace axes;
+  Grid grid({kPhongExponent, kPhongMomentum, kPhongPoints}, [](const double*) { return 0.0; });
+  parallel(kPhongExponent, [&](int e) {
+    const double n =
+        inverse(phong_exponent<double>, double(e) / (kPhongExponent - 1), 0, 2 * kMaxExponent);
+    for (int m = 0; m < kPhongMomentum; ++m) {
+      const double momentum = inverse([n](double p) { return phong_momentum(p, n); },
+                                      double(m) / (kPhongMomentum - 1), 0, 2);
+      const auto w = weights(n, momentum);
+      std::copy(w.begin(), w.end(), &grid.values[(e * kPhongMomentum + m) * kPhongPoints]);
+    }
+  });
+  const std::vector<double> spline = grid.spline(1);
+  return {spline.begin(), spline.end()};
+}
+
+}  // namespace
+}  // namespace mms::materials::tables
+
+int main(int argc, char** argv) {
+  using namespace mms::materials::tables;
+  return make_tables(argc, argv,
+                     [](const TableFiles& to) { write_numbers(to, "kPhong", table()); });
+}
