@@ -47,11 +47,11 @@ inline constexpr bool kLambert = std::is_same_v<M, Matte<R>> || std::is_same_v<M
 
 /// Whether the model is an interface of which it is known what coats send back.
 template <class R, class M>
-inline bool knows_coats(const M& model, const CoatsOnGlass<R>& coats) {
+inline bool knows_coats(const M& model) {
   if constexpr (std::is_same_v<M, Refraction<R>>)
     return true;
-  else if constexpr (requires { model.knows_coats(coats); })
-    return model.knows_coats(coats);
+  else if constexpr (requires { model.knows_coats(); })
+    return model.knows_coats();
   else
     return false;
 }
@@ -267,11 +267,10 @@ void Bsdf<R>::know_material(Choice& choice) const {
   choice.material.keep(*layout_, params_);
   find_coats(*layout_, params_, choice.coats);
   if (layout_->transmits())
-    find_glass(
-        *layout_, params_, choice.coats, choice.glass, [&](int lobe, const CoatsOnGlass<R>& coats) {
-          return with_model(
-              lobe, false, [&](const auto& model) { return detail::knows_coats<R>(model, coats); });
-        });
+    find_glass(*layout_, params_, choice.coats, choice.glass, [&](int lobe) {
+      return with_model(lobe, false,
+                        [](const auto& model) { return detail::knows_coats<R>(model); });
+    });
   for (auto& known : choice.spread_known) known.reset();
   choice.solved.reset();
   for (int i = 0; i < node_count(); ++i) {

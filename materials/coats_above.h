@@ -139,7 +139,6 @@ struct CoatTree {
   const CoatAbove<R>& operator[](int base) const { return coats.of[base]; }
   CoatAbove<R>& operator[](int base) { return coats.of[base]; }
   const CoatNumbers<R>& numbers(int base) const { return solved[base].numbers(); }
-  bool filmed(int base, int j) const { return numbers(base).films[j].there(); }
   /// |Cosine| of light that meets a node, from that outside all coats.
   R cosine_inside(int node, int j, R z) const {
     const int base = above.of[node].base;
@@ -310,14 +309,6 @@ inline FresnelSplit<R> split_together(const CoatTree<R>& coats, int base, int j,
   return all;
 }
 
-/// Whether one of them has a film, whose E is no sum that glass knows the parts of.
-template <class R>
-inline bool filmed_together(const CoatTree<R>& coats, int base, int j) {
-  bool filmed = false;
-  for_each_together(coats, base, j, [&](int one) { filmed |= coats.filmed(one, j); });
-  return filmed;
-}
-
 /// The base of a combiner that may be a coat, or -1.
 inline int coat_base(const Layout::Node& node) {
   switch (node.lobe) {
@@ -440,7 +431,6 @@ struct CoatsOnGlass {
   const std::array<CoatOnGlass<R>, kWavelengths>& law;
 
   FresnelSplit<R> split(int j, R z) const { return split_together(coats, base, j, z); }
-  bool filmed(int j) const { return filmed_together(coats, base, j); }
   /// What their layers let through along a direction of |cosine| `z` outside.
   R layers(int j, R z) const {
     R through = 1;
@@ -454,29 +444,23 @@ struct CoatsOnGlass {
 
 namespace detail {
 
-/// At wavelength j.
+/// What they are at each wavelength.
 template <class R>
-inline CoatOnGlass<R> coat_on_glass(const CoatTree<R>& coats, int base, int j) {
-  CoatOnGlass<R> on;
-  if (!(coats.numbers(base).eta[j] > 1)) return on;
-  // F is that of the uppermost; of others little is left below it (materials/coat.h).
-  int top = base;
-  R through = 1, before = 1;  // along the surface, with and without the uppermost
-  for_each_together(coats, base, j, [&](int one) {
-    top = one;
-    before = through;
-    through *= coats.numbers(one).split(j, R(0)).transmitted;
-  });
-  on.eta = coats.numbers(top).eta[j];
-  on.steep = coats.numbers(top).shape[j].steep * before;
-  on.normal = split_together(coats, base, j, R(1)).transmitted;
-  if ((top == base && coats[base].kind.polished) || filmed_together(coats, base, j)) return on;
-  for (int m = 0; m < kRest; ++m) {
-    const R z = R(kRestCosine[m]);
-    on.rest[m] =
-        split_together(coats, base, j, z).reflected - on.steep * fresnel_dielectric(z, on.eta);
+inline std::array<CoatOnGlass<R>, kWavelengths> coats_on_glass(const CoatTree<R>& coats, int base) {
+  std::array<CoatOnGlass<R>, kWavelengths> law;
+  for (int j = 0; j < kWavelengths; ++j) {
+    bool repeated = j > 0;
+    for_each_together(coats, base, j, [&](int one) {
+      const CoatAbove<R>& coat = coats[one];
+      repeated = repeated && coats.numbers(one).repeated(j) && coat.nested[j] == coat.nested[j - 1];
+    });
+    if (repeated)
+      law[j] = law[j - 1];
+    else if (coats.numbers(base).eta[j] > 1)
+      law[j] = CoatOnGlass<R>([&](R z) { return split_together(coats, base, j, z); });
+    law[j].repeated = repeated;
   }
-  return on;
+  return law;
 }
 
 }  // namespace detail
@@ -500,14 +484,13 @@ inline void for_each_below(const Layout& layout, const R* params, const CoatTree
 }
 
 /// Which coats are over glass, and which lobes get the weight of glass: those of which
-/// `knows(lobe, coats)` is true.
+/// `knows(lobe)` is true.
 template <class R, class Knows>
 inline void find_glass(const Layout& layout, const R* params, CoatTree<R>& coats,
                        PerNode<OverGlass<R>>& glass, const Knows& knows) {
   for (int base = 0; base < int(layout.nodes().size()); ++base) {
     if (!coats.starts_at(base)) continue;
     CoatAbove<R>& coat = coats[base];
-    bool asked = false;
     for_each_below(layout, params, coats, base, [&](int node, const Spectrum<R>& weight) {
       const Layout::Node& n = layout.nodes()[node];
       const int below = coat_base(n);
@@ -516,18 +499,13 @@ inline void find_glass(const Layout& layout, const R* params, CoatTree<R>& coats
           if (coats[below].nested[j]) coat.glass[j] += weight[j] * coats[below].glass[j];
         return;
       }
-      if (!(traits(n.lobe) & Transmits) || !(traits(n.lobe) & Reflects)) return;
+      if (!(traits(n.lobe) & Transmits) || !(traits(n.lobe) & Reflects) || !knows(node)) return;
       auto& law = glass.of[base].law;
-      for (int j = 0; !asked && j < kWavelengths; ++j)
-        law[j] = coats.numbers(base).repeated(j) && j > 0 && coat.upper < 0
-                     ? law[j - 1]
-                     : detail::coat_on_glass(coats, base, j);
-      asked = true;
-      if (!knows(node, CoatsOnGlass<R>{coats, base, law})) return;
+      if (!coat.over_glass) law = detail::coats_on_glass(coats, base);
       coats.above.of[node].once_base = base;
       coat.over_glass = true;
       for (int j = 0; j < kWavelengths; ++j)
-        if (law[j].counts()) coat.glass[j] += weight[j];
+        if (law[j].counts) coat.glass[j] += weight[j];
     });
     for (R& share : coat.glass.v) share = std::min(share, R(1));
   }

@@ -54,18 +54,17 @@
 /// it once if light changes sides, twice if it stays outside, and never if it stays inside, along
 /// the directions outside; the same of the layer of a `coat`. The coat sends back the rest
 /// (materials/glass_coat.h), and seen from inside nothing else:
-///   base: T(outside), T T' / T(1), or 1
+///   base: T(outside), T T' / M, or 1      M the most that T is: mostly along the normal
 /// so that lossless glass is 1 from both sides: smooth 1e-5 (`dielectric`, `beckmann_dielectric`,
 /// `film_dielectric`, `phong_glass`, `refraction`), round facets of roughness from 0.02 and
-/// stretched ones from 0.1, of anisotropy up to 0.9, 1e-3 for indices of both between 1.01 and 4,
-/// as without a coat; seen from inside one random setting of anisotropy 1 in 400 is off by up to
-/// 2.5e-3. Below a polished coat under another of index below 1.03, 3e-3. Of `glossy_refraction`,
-/// of an index of at least 1, what changes sides gets g(wo) g(wi) of the directions outside, and
-/// what is sent back is the rest of T as a mirror: 1e-4. Rough `phong_glass` of such an index loses
-/// what it does without a coat, within 1e-3 (materials/phong_coat.h). Under a film all that is so
-/// for smooth interfaces, `phong_glass` and `glossy_refraction`. Rough glass of which a film is
-/// part or that is below one, and other indices, get min(T, T') as if both directions were outside,
-/// and lose up to a tenth about the critical angle.
+/// stretched ones from 0.1, of anisotropy up to 0.9, 1e-3 for indices between 1.01 and 4 under
+/// coats of indices from 1.005, as without a coat; seen from inside one random setting of
+/// anisotropy 1 in 400 is off by up to 2.5e-3. Of `glossy_refraction`, of an index of at least 1,
+/// what changes sides gets g(wo) g(wi) of the directions outside, and what is sent back is the rest
+/// of T as a mirror: 1e-4. Rough `phong_glass` of such an index loses what it does without a coat,
+/// within 1e-3 (materials/phong_coat.h). All that is so under a film too. Rough `film_dielectric`,
+/// and rough glass of other indices, get min(T, T') as if both directions were outside, and lose up
+/// to a tenth about the critical angle.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`:
@@ -215,9 +214,9 @@ inline Spectrum<R> glass_weight(const NodeWeight<R>& w, const CoatAbove<R>& coat
                                 const OverGlass<R>& over, Vec3<R> wo, Vec3<R> wi) {
   Spectrum<R> f = w.other;
   for (int j = 0; j < kWavelengths; ++j)
-    if (over.law[j].counts())
-      f[j] = w.crossing[j] * glass_factor(wo.z > 0, wi.z > 0, coat.through_o[j], w.through_i[j],
-                                          over.law[j].normal);
+    if (over.law[j].counts)
+      f[j] = w.crossing[j] *
+             glass_factor(wo.z > 0, wi.z > 0, coat.through_o[j], w.through_i[j], over.law[j].most);
   return f;
 }
 

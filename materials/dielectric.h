@@ -100,40 +100,27 @@ struct RoughInterface {
     });
   }
 
-  /// Whether it is known what coats send back, `coats` being as in SentBack::smooth.
-  template <class Coats>
-  bool knows_coats(const Coats& coats) const {
+  /// Whether it is known what coats send back.
+  bool knows_coats() const {
     bool known = !Face::kFilmed;
-    for (int j = 0; j < kWavelengths; ++j) {
-      const auto& law = coats.law[j];
-      known &= in_glass_tables(rough_eta(j, Vec3<R>{0, 0, 1})) &&
-               (!law.counts() || (in_glass_tables(law.eta) && !coats.filmed(j)));
-    }
+    for (int j = 0; j < kWavelengths; ++j) known &= in_glass_tables(rough_eta(j, Vec3<R>{0, 0, 1}));
     return known || specular();
   }
-  /// That, of light along `w`.
+  /// That, of light along `w`; `coats` as in SentBack::smooth.
   template <class Coats>
   SentBack<R> sent_back(Vec3<R> w, const Coats& coats) const {
     if (specular()) return SentBack<R>::smooth(terms(w), w, coats);
     Spectrum<R> eta;
     for (int j = 0; j < kWavelengths; ++j) eta[j] = rough_eta(j, w);
-    SentBack<R> back(w, eta);
-    const Broadness<R> broad = Broadness<R>::facets(std::sqrt(facets.ax * facets.ay));
-    back.broad = broad.held + broad.even;
     const bool outside = w.z > 0;
     const Spectrum<R>& tint = outside ? reflected : transmitted;
-    for (int j = 0; j < kWavelengths; ++j) {
-      const auto& law = coats.law[j];
-      if (!law.counts()) continue;
-      if (repeated(j) && law == coats.law[j - 1]) {
-        back.share[j] = back.share[j - 1];
-        continue;
-      }
-      back.share[j] = tint[j] * materials::sent_back(glass_tables(facets), facets.ax, facets.ay, w,
-                                                     outside ? eta[j] : 1 / eta[j], law);
-      if (outside) back.share[j] *= coats.split(j, std::min(w.z, R(1))).transmitted;
-    }
-    return back;
+    return SentBack<R>::rough(
+        w, eta, Broadness<R>::facets(std::sqrt(facets.ax * facets.ay)), coats,
+        [this](int j) { return repeated(j); },
+        [&](int j, const CoatOnGlass<R>& law) {
+          return tint[j] * materials::sent_back(glass_tables(facets), facets.ax, facets.ay, w,
+                                                outside ? eta[j] : 1 / eta[j], law);
+        });
   }
 
   Solved solved() const {

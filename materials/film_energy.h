@@ -19,6 +19,7 @@
 #include <array>
 #include <cmath>
 
+#include "materials/chebyshev.h"
 #include "materials/energy.h"
 #include "materials/fresnel.h"
 #include "materials/lobe.h"
@@ -46,15 +47,6 @@ inline R film_index(R eta) {
   return (index(eta) - R(kLeastBentIndex)) / R(kMostBentIndex - kLeastBentIndex);
 }
 }  // namespace axes
-
-/// t_k(c) for each k.
-template <class R>
-inline std::array<R, axes::kFilmTerms> film_terms(R c) {
-  const R x = 2 * c - 1;
-  std::array<R, axes::kFilmTerms> t{1, x};
-  for (int k = 2; k < axes::kFilmTerms; ++k) t[k] = 2 * x * t[k - 1] - t[k - 2];
-  return t;
-}
 
 /// A loss, along a direction or of all, and what films change of it.
 template <class R>
@@ -157,16 +149,15 @@ struct FilmPoints {
   }
 
  private:
-  /// The points, where sums over two of his polynomials' products vanish, and what a function's
-  /// values there are multiplied with for its part of each polynomial.
+  /// The points, and what a function's values there are multiplied with for its part of each
+  /// polynomial.
   struct Rule {
     Values cosines, parts[kOrder.terms];
 
     Rule() {
       for (int i = 0; i < kCount; ++i) {
-        const double c = (1 + std::cos(kPi<double> * (i + 0.5) / kCount)) / 2;
-        cosines[i] = R(c);
-        const auto terms = film_terms(cosines[i]);
+        cosines[i] = R(chebyshev_points<kCount>()[i]);
+        const auto terms = chebyshev_terms<kOrder.terms>(cosines[i]);
         for (int k = 0; k < kOrder.terms; ++k)
           parts[k][i] = terms[k] * R(k == 0 ? 1 : 2) / R(kCount);
       }

@@ -5,13 +5,8 @@ namespace mms::materials {
 
 #include "glass_tables.inc"  // made by the build: materials/tables/glass.cpp
 
-const GlassTables kGgxGlass{{kGgxSteepOutside, kGgxSteepInside},
-                            {kGgxRestOutside, kGgxRestInside},
-                            {kGgxBentSteepOutside, kGgxBentSteepInside},
-                            {kGgxBentRestOutside, kGgxBentRestInside}};
-const GlassTables kBeckmannGlass{{kBeckmannSteepOutside, kBeckmannSteepInside},
-                                 {kBeckmannRestOutside, kBeckmannRestInside},
-                                 {kBeckmannBentSteepOutside, kBeckmannBentSteepInside},
-                                 {kBeckmannBentRestOutside, kBeckmannBentRestInside}};
+const GlassTables kGgxGlass{{kGgxRoundOutside, kGgxRoundInside}, {kGgxBentOutside, kGgxBentInside}};
+const GlassTables kBeckmannGlass{{kBeckmannRoundOutside, kBeckmannRoundInside},
+                                 {kBeckmannBentOutside, kBeckmannBentInside}};
 
 }  // namespace mms::materials

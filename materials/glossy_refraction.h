@@ -30,10 +30,8 @@ struct GlossyRefraction {
   explicit GlossyRefraction(const R* p) : numbers(p), lobe(p + kWavelengths) {}
 
   bool specular() const { return lobe.specular(); }
-  /// Whether it is known what coats let through, `Coats` being as in SentBack::smooth. They lie on
-  /// the side of the lower index then.
-  template <class Coats>
-  bool knows_coats(const Coats&) const {
+  /// Whether it is known what coats let through: they lie on the side of the lower index.
+  bool knows_coats() const {
     return specular() || std::all_of(numbers, numbers + kWavelengths, [](R ior) {
              return relative_eta(ior, Vec3<R>{0, 0, 1}) >= 1;
            });

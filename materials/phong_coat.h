@@ -7,24 +7,22 @@
 ///
 ///   int K g(z) d^2 p     over |p| < 1
 ///
-/// of g = E times a half of what Fresnel says of both directions. So it is sum_i W_i g(z_i) for a
-/// g that is a polynomial below degree kPhongPoints, z_i Chebyshev's points on [0, 1], and a table
-/// that is computed when the project is built (materials/tables/phong.cpp) holds W_i for any
-/// exponent and momentum; so coats may be any, films among them.
+/// of g = E times a half of what Fresnel says of both directions. As there that is a sum over
+/// points, and a table that is computed when the project is built (materials/tables/phong.cpp)
+/// holds their weights for any exponent and momentum.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "materials/glass_coat.h"
 #include "materials/lobe.h"
 #include "materials/radial.h"
 #include "materials/spline.h"
 
 namespace mms::materials {
 
-inline constexpr int kPhongPoints = 16;
-
-/// [exponent][momentum][i].
+/// [exponent][momentum][point].
 extern const float* const kPhongWeights;
 
 namespace axes {
@@ -54,24 +52,13 @@ inline R phong_momentum(R momentum, R n) {
 }
 }  // namespace axes
 
-/// z_i.
-inline const std::array<double, kPhongPoints>& phong_cosines() {
-  static const auto cosines = [] {
-    std::array<double, kPhongPoints> z;
-    for (int i = 0; i < kPhongPoints; ++i)
-      z[i] = (1 + std::cos(kPi<double> * (i + 0.5) / kPhongPoints)) / 2;
-    return z;
-  }();
-  return cosines;
-}
-
-/// W_i of light of that momentum. \pre the exponent is not above kMaxExponent
+/// The weights for light of that momentum. \pre the exponent is not above kMaxExponent
 template <class R>
-inline std::array<R, kPhongPoints> phong_weights(R n, R momentum) {
+inline std::array<R, kGlassPoints> phong_weights(R n, R momentum) {
   using namespace axes;
-  std::array<R, kPhongPoints> weights{};
-  constexpr int n1 = kPhongPoints, n0 = n1 * coefficients(kPhongMomentum);
-  add_terms(weights.data(), kPhongPoints, kPhongWeights, R(1),
+  std::array<R, kGlassPoints> weights{};
+  constexpr int n1 = kGlassPoints, n0 = n1 * coefficients(kPhongMomentum);
+  add_terms(weights.data(), kGlassPoints, kPhongWeights, R(1),
             Stencil<R>::at(phong_exponent(n), kPhongExponent), n0,
             Stencil<R>::at(phong_momentum(momentum, n), kPhongMomentum), n1);
   return weights;

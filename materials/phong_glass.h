@@ -40,29 +40,24 @@ struct PhongGlass {
         transmitted(weight_at(p + 2 * kWavelengths + 1)) {}
 
   bool specular() const { return n > R(kMaxExponent); }
-  /// Whether it is known what coats send back, `coats` being as in SentBack::smooth. They lie on
-  /// the side of the lower index then.
-  template <class Coats>
-  bool knows_coats(const Coats&) const {
+  /// Whether it is known what coats send back: they lie on the side of the lower index.
+  bool knows_coats() const {
     return specular() || std::all_of(ior, ior + kWavelengths, [](R its) {
              return relative_eta(its, Vec3<R>{0, 0, 1}) >= 1;
            });
   }
-  /// That, of light along `w` (materials/phong_coat.h).
+  /// That, of light along `w` (materials/phong_coat.h); `coats` as in SentBack::smooth.
   template <class Coats>
   SentBack<R> sent_back(Vec3<R> w, const Coats& coats) const {
     const SpecularTerms<R> smooth = terms(w);
     if (specular()) return SentBack<R>::smooth(smooth, w, coats);
-    SentBack<R> back(w, smooth.eta);
-    const Broadness<R> broad = Broadness<R>::facets(std::sqrt(axes::phong_area(n)));
-    back.broad = broad.held + broad.even;
-    for (int j = 0; j < kWavelengths; ++j) {
-      const auto& law = coats.law[j];
-      if (!law.counts()) continue;
-      const bool same = repeated(j) && law == coats.law[j - 1] && !coats.filmed(j);
-      back.share[j] = same ? back.share[j - 1] : sent_back(w, smooth.eta[j], j, coats);
-    }
-    return back;
+    const Spectrum<R>& tint = w.z > 0 ? reflected : transmitted;
+    return SentBack<R>::rough(
+        w, smooth.eta, Broadness<R>::facets(std::sqrt(axes::phong_area(n))), coats,
+        [this](int j) { return repeated(j); },
+        [&](int j, const CoatOnGlass<R>& law) {
+          return tint[j] * sent_back(w, smooth.eta[j], law);
+        });
   }
 
   Spectrum<R> estimate(Vec3<R> wo) const {
@@ -126,26 +121,20 @@ struct PhongGlass {
            transmitted[j] == transmitted[j - 1];
   }
 
-  /// At wavelength j; `eta` as in SpecularTerms.
-  template <class Coats>
-  R sent_back(Vec3<R> w, R eta, int j, const Coats& coats) const {
+  /// The share of light that coats send back, from outside over T(o); `eta` as in SpecularTerms.
+  R sent_back(Vec3<R> w, R eta, const CoatOnGlass<R>& law) const {
     const bool outside = w.z > 0;
     const R c = std::min(std::abs(w.z), R(1)), s = std::sqrt(w.x * w.x + w.y * w.y);
     const FresnelSplit<R> o = fresnel_split(c, eta);
-    const R through_o = outside ? coats.split(j, c).transmitted : R(1);
     const auto weights = phong_weights(n, outside ? s : s / eta);
     R sent = 0;
-    for (int i = 0; i < kPhongPoints; ++i) {
-      const R z = R(phong_cosines()[i]);
-      const FresnelSplit<R> e = coats.split(j, z),
-                            there = fresnel_split(z, outside ? eta : 1 / eta);
-      sent +=
-          weights[i] * (outside ? (o.reflected + there.reflected) *
-                                      (through_o - glass_factor(true, true, through_o,
-                                                                e.transmitted, coats.law[j].normal))
-                                : (o.transmitted + there.transmitted) * e.reflected);
+    for (int i = 0; i < kGlassPoints; ++i) {
+      const FresnelSplit<R> there =
+          fresnel_split(R(chebyshev_points<kGlassPoints>()[i]), outside ? eta : 1 / eta);
+      sent += weights[i] * law.sent[!outside][i] *
+              (outside ? o.reflected + there.reflected : o.transmitted + there.transmitted);
     }
-    return limited(sent / 2, R(0), R(1)) * (outside ? reflected : transmitted)[j];
+    return limited(sent / 2, R(0), R(1));
   }
 
   R kernel(R p2) const {

@@ -35,7 +35,7 @@ auto changes(const Ggx<double>& facets, double eta, Vec3d w) {
   constexpr int terms = axes::kFilmTerms;
   return interface_mean(facets, eta, w, points, [eta](const Way& up, const Way& down) {
     Numbers<terms + 1> to;
-    const auto t = film_terms(eta < 1 ? down.facet : up.facet);
+    const auto t = chebyshev_terms<terms>(eta < 1 ? down.facet : up.facet);
     for (int k = 0; k < terms; ++k) to.of[k] = t[k] * down.share * (up.taken - down.taken);
     to.of[terms] = up.taken + up.share * up.taken + down.share * down.taken;
     return to;

@@ -10,22 +10,10 @@
 #include "base/quadrature.h"
 #include "materials/phong_coat.h"
 #include "materials/tables/grid.h"
+#include "materials/tables/points.h"
 
 namespace mms::materials::tables {
 namespace {
-
-/// Lagrange's polynomials over the points: of z = (1 + cos t) / 2, by Chebyshev's series.
-std::array<double, kPhongPoints> lagrange(double z) {
-  const double t = std::acos(std::clamp(2 * z - 1, -1.0, 1.0));
-  std::array<double, kPhongPoints> to;
-  for (int i = 0; i < kPhongPoints; ++i) {
-    double sum = 1;
-    for (int k = 1; k < kPhongPoints; ++k)
-      sum += 2 * std::cos(k * t) * std::cos(k * kPi<double> * (i + 0.5) / kPhongPoints);
-    to[i] = sum / kPhongPoints;
-  }
-  return to;
-}
 
 /// K of materials/phong_glass.h.
 struct Kernel {
@@ -52,13 +40,13 @@ struct Kernel {
   }
 };
 
-std::array<double, kPhongPoints> weights(double n, double momentum) {
+std::array<double, kGlassPoints> weights(double n, double momentum) {
   const Kernel kernel{n};
   const double reach = kernel.reach();
   // Where the circle of momenta enters the kernel's, and where it is all in it.
   const double ends[] = {std::max(momentum - reach, 0.0), std::abs(reach - momentum),
                          std::min(momentum + reach, 1.0)};
-  std::array<double, kPhongPoints> sum{};
+  std::array<double, kGlassPoints> sum{};
   const auto add = [&](double from, double to) {
     constexpr int parts = 16, points = 8;
     const double z0 = std::sqrt((1 - to) * (1 + to)), z1 = std::sqrt((1 - from) * (1 + from));
@@ -69,15 +57,15 @@ std::array<double, kPhongPoints> weights(double n, double momentum) {
         const double z = z0 + (z1 - z0) * x * x * (3 - 2 * x);
         const double weight = gauss<points>().w[k] / parts * (z1 - z0) * 6 * x * (1 - x);
         const double p = std::sqrt((1 - z) * (1 + z));
-        const auto terms = lagrange(z);
+        const auto terms = chebyshev_terms<kGlassPoints>(z);
         const double there = weight * z * kernel.around(momentum, p);
-        for (int i = 0; i < kPhongPoints; ++i) sum[i] += there * terms[i];
+        for (int i = 0; i < kGlassPoints; ++i) sum[i] += there * terms[i];
       }
   };
   const double middle = std::min(ends[1], 1.0);
   if (ends[0] < middle) add(ends[0], middle);
   if (middle < ends[2]) add(middle, ends[2]);
-  return sum;
+  return point_weights(sum);
 }
 
 /// The argument in [from, to] at which a rising function has that value.
@@ -92,7 +80,7 @@ double inverse(const F& f, double value, double from, double to) {
 
 std::vector<float> table() {
   using namespace axes;
-  Grid grid({kPhongExponent, kPhongMomentum, kPhongPoints}, [](const double*) { return 0.0; });
+  Grid grid({kPhongExponent, kPhongMomentum, kGlassPoints}, [](const double*) { return 0.0; });
   parallel(kPhongExponent, [&](int e) {
     const double n =
         inverse(phong_exponent<double>, double(e) / (kPhongExponent - 1), 0, 2 * kMaxExponent);
@@ -100,7 +88,7 @@ std::vector<float> table() {
       const double momentum = inverse([n](double p) { return phong_momentum(p, n); },
                                       double(m) / (kPhongMomentum - 1), 0, 2);
       const auto w = weights(n, momentum);
-      std::copy(w.begin(), w.end(), &grid.values[(e * kPhongMomentum + m) * kPhongPoints]);
+      std::copy(w.begin(), w.end(), &grid.values[(e * kPhongMomentum + m) * kGlassPoints]);
     }
   });
   const std::vector<double> spline = grid.spline(1);

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Chebyshev's polynomials over [0, 1], and points to know functions by: what is nearly a
+/// polynomial is nearly the one through its values there. Pure.
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "base/warp.h"
+
+namespace mms::materials {
+
+/// t_k(x) for each degree k below N.
+template <std::size_t N, class R>
+inline std::array<R, N> chebyshev_terms(R x) {
+  const R u = 2 * x - 1;
+  std::array<R, N> t{1, u};
+  for (std::size_t k = 2; k < N; ++k) t[k] = 2 * u * t[k - 1] - t[k - 2];
+  return t;
+}
+
+/// Where the polynomial of degree N is 0, from 1 down. Sums over them of two others' products, of
+/// degrees below N, vanish.
+template <std::size_t N>
+inline const std::array<double, N>& chebyshev_points() {
+  static const auto points = [] {
+    std::array<double, N> x;
+    for (std::size_t i = 0; i < N; ++i)
+      x[i] = (1 + std::cos(kPi<double> * (double(i) + 0.5) / N)) / 2;
+    return x;
+  }();
+  return points;
+}
+
+}  // namespace mms::materials
