@@ -214,23 +214,29 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
   choice.frames.reset();
   if (node_count() == 0 || in_surface(wo)) return;
   auto& probability = choice.probability.of;
-  // Of a node's model; what that has seen along `wo` is remembered.
+  // What the model of a node sees along `wo` is remembered.
+  const auto see = [&](int i) {
+    const Vec3<R> w = choice.frames.seen(i, wo);
+    with_model(i, 0, [&](const auto& model) {
+      if (!detail::is_specular(model)) detail::see<R>(model, *layout_, params_, w, i, choice);
+      return 0;
+    });
+  };
   const auto estimate = [&](int i) {
     const Vec3<R> w = choice.frames.seen(i, wo);
-    return with_model(i, Spectrum<R>(), [&](const auto& model) {
-      if (!detail::is_specular(model)) detail::see<R>(model, *layout_, params_, w, i, choice);
-      return model.estimate(w);
-    });
+    return with_model(i, Spectrum<R>(), [&](const auto& model) { return model.estimate(w); });
   };
   // Below this the inverse would overflow: black.
   constexpr R least = std::numeric_limits<R>::min() / std::numeric_limits<R>::epsilon();
   if (node_count() == 1) {
+    see(0);
     probability[0] = Spectrum<R>::map([](R x) { return R(x > least); }, estimate(0));
     choice.any = probability[0][0] > 0;
     return;
   }
   Spectrum<R> sum;
   choice.frames.find(*layout_, params_, wo);
+  for (int i = 0; i < node_count(); ++i) see(i);
   if (!choice.material.is(*layout_, params_)) know_material(choice);
   see_coats(*layout_, params_, choice.frames, wo, choice.coats);
   if (layout_->transmits()) see_coated_glass(wo, choice);
@@ -337,10 +343,16 @@ Sent<R> Bsdf<R>::sent_back(int base, Vec3<R> w, const Choice& choice) const {
     if (choice.coats.above.of[i].once_base < 0) return;
     const Vec3<R> seen = choice.frames.seen(i, w);
     with_model(i, 0, [&](const auto& model) {
-      if constexpr (requires { model.sent_back(seen, coats); })
+      if constexpr (detail::CanBeSpecular<std::decay_t<decltype(model)>>)
+        if (detail::is_specular(model)) {
+          add(SentBack<R>::smooth(model.terms(seen), seen, coats), weight);
+          return 0;
+        }
+      if constexpr (requires { model.sent_back(seen, coats, model.solved()); })
+        add(model.sent_back(seen, coats, choice.models[i].template get<decltype(model.solved())>()),
+            weight);
+      else if constexpr (requires { model.sent_back(seen, coats); })
         add(model.sent_back(seen, coats), weight);
-      else if constexpr (detail::CanBeSpecular<std::decay_t<decltype(model)>>)
-        add(SentBack<R>::smooth(model.terms(seen), seen, coats), weight);
       return 0;
     });
   });

@@ -102,25 +102,41 @@ struct RoughInterface {
 
   /// Whether it is known what coats send back.
   bool knows_coats() const {
-    bool known = !Face::kFilmed;
+    bool known = !Face::kFilmed || facets.ax == facets.ay;
     for (int j = 0; j < kWavelengths; ++j) known &= in_glass_tables(rough_eta(j, Vec3<R>{0, 0, 1}));
     return known || specular();
   }
-  /// That, of light along `w`; `coats` as in SentBack::smooth.
+  /// That, of light along `w`; `coats` as in SentBack::smooth. \pre not specular
   template <class Coats>
-  SentBack<R> sent_back(Vec3<R> w, const Coats& coats) const {
-    if (specular()) return SentBack<R>::smooth(terms(w), w, coats);
+  SentBack<R> sent_back(Vec3<R> w, const Coats& coats, const Solved& solved) const {
     Spectrum<R> eta;
     for (int j = 0; j < kWavelengths; ++j) eta[j] = rough_eta(j, w);
     const bool outside = w.z > 0;
-    const Spectrum<R>& tint = outside ? reflected : transmitted;
+    typename Face::Loss loss;
+    int known = -1;  // the wavelength of `loss`
+    const auto sent = [&](int j, const CoatOnGlass<R>& law) {
+      const R glass = outside ? eta[j] : 1 / eta[j];
+      R all = materials::sent_back(glass_tables(facets), facets.ax, facets.ay, w, glass, law);
+      if constexpr (Face::kFilmed) {
+        int first = j;
+        while (same_index(first)) --first;
+        const InterfaceLoss<R>&here = solved.bare[!outside][first],
+              &there = solved.bare[outside][first];
+        if (first != known) loss = face.loss(facets, here, w);
+        known = first;
+        const auto further = [outside](R lost, R transmit) {
+          return lost * (outside ? 1 - transmit : transmit);
+        };
+        const R bare = further(loss.bare, transmitted_share(here.mean(), there.mean(), eta[j])),
+                filmed = further(solved.law[j].of(loss), solved.transmit[!outside][j]);
+        all += more_sent_back(facets.ax, w, glass, law, solved.law[j].q, bare, filmed);
+      }
+      return all;
+    };
     return SentBack<R>::rough(
-        w, eta, Broadness<R>::facets(std::sqrt(facets.ax * facets.ay)), coats,
-        [this](int j) { return repeated(j); },
-        [&](int j, const CoatOnGlass<R>& law) {
-          return tint[j] * materials::sent_back(glass_tables(facets), facets.ax, facets.ay, w,
-                                                outside ? eta[j] : 1 / eta[j], law);
-        });
+        w, eta, outside ? reflected : transmitted,
+        Broadness<R>::facets(std::sqrt(facets.ax * facets.ay)), coats,
+        [this](int j) { return repeated(j); }, sent);
   }
 
   Solved solved() const {

@@ -13,6 +13,7 @@
 
 #include "materials/conductor.h"
 #include "materials/dielectric.h"
+#include "materials/film_coat.h"
 #include "materials/film_energy.h"
 #include "materials/thin_film.h"
 

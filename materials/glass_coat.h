@@ -88,9 +88,9 @@ inline R glass_direction(bool inside, R z, R s, R alpha, R glass) {
 }
 }  // namespace axes
 
-/// The points of the rules: of round facets and of `phong_glass`, and of what stretched ones have
-/// above these.
-inline constexpr int kGlassPoints = 16, kBentGlassPoints = 10;
+/// The points of the rules: of round facets and of `phong_glass`, and fewer of what stretched ones
+/// have above these and of what films change.
+inline constexpr int kGlassPoints = 16, kFewGlassPoints = 10;
 
 /// [0] of light from outside, [1] from inside.
 struct GlassTables {
@@ -126,7 +126,7 @@ struct CoatOnGlass {
   bool repeated = false;  ///< it is as at the wavelength before
   R most{1};              ///< M
   SentOfPoints<R, kGlassPoints> sent{};
-  SentOfPoints<R, kBentGlassPoints> bent{};
+  SentOfPoints<R, kFewGlassPoints> few{};
 
   CoatOnGlass() = default;
   /// `split(z)` says E and T.
@@ -141,10 +141,10 @@ struct CoatOnGlass {
       }
     };
     find(sent);
-    find(bent);
+    find(few);
     const auto lacks = [&](R& t) { t = most > 0 ? (most - t) / most : R(0); };
     std::for_each(sent[0].begin(), sent[0].end(), lacks);
-    std::for_each(bent[0].begin(), bent[0].end(), lacks);
+    std::for_each(few[0].begin(), few[0].end(), lacks);
   }
 };
 
@@ -185,15 +185,15 @@ inline R sent_of_shape(const GlassTables& tables, const StretchedInterface<R>& f
   const BentGlassGrid& grid = kBentGlass[inside];
   const R alpha = f.like(), s = std::sqrt(f.x * f.x + f.y * f.y);
   const Basis basis(f.shape(widening(inside ? 1 / glass : glass, alpha)), grid.degree);
-  const int n2 = kBentGlassPoints * basis.count, n1 = n2 * coefficients(grid.direction),
+  const int n2 = kFewGlassPoints * basis.count, n1 = n2 * coefficients(grid.direction),
             n0 = n1 * coefficients(grid.index);
-  R shapes[kBentGlassPoints * Basis::kMost] = {}, sent[Basis::kMost] = {};
+  R shapes[kFewGlassPoints * Basis::kMost] = {}, sent[Basis::kMost] = {};
   add_terms(shapes, n2, tables.bent[inside], R(1), Stencil<R>::at(glass_alpha(alpha), grid.width),
             n0, Stencil<R>::at(glass_index(glass), grid.index), n1,
             Stencil<R>::at(glass_direction(inside, f.z, s, alpha, glass), grid.direction), n2);
-  for (int i = 0; i < kBentGlassPoints; ++i)
+  for (int i = 0; i < kFewGlassPoints; ++i)
     for (int t = 0; t < basis.count; ++t)
-      sent[t] += coat.bent[inside][i] * shapes[i * basis.count + t];
+      sent[t] += coat.few[inside][i] * shapes[i * basis.count + t];
   return basis.sum(sent);
 }
 
@@ -209,7 +209,7 @@ inline R sent_back(const GlassTables& tables, R ax, R ay, Vec3<R> w, R glass,
   const auto weights = round_weights(tables, f, inside, glass);
   R sent = ax == ay ? R(0) : sent_of_shape(tables, f, inside, glass, coat);
   for (int i = 0; i < kGlassPoints; ++i) sent += weights[i] * coat.sent[inside][i];
-  return limited(sent, R(0), R(1));
+  return sent;
 }
 
 /// S at each wavelength, and the |cosine| outside of the light that it is, or nearly.
@@ -228,10 +228,11 @@ struct SentBack {
   }
 
   /// Of an interface as broad as `spread`, which is as at the wavelength before where `repeated(j)`
-  /// says so: `sent(j, law)` is S, but for T(o).
+  /// says so: `sent(j, law)` is S, but for T(o) and `tint`.
   template <class Coats, class Repeated, class Sent>
-  static SentBack rough(Vec3<R> wo, const Spectrum<R>& eta, const Broadness<R>& spread,
-                        const Coats& coats, const Repeated& repeated, const Sent& sent) {
+  static SentBack rough(Vec3<R> wo, const Spectrum<R>& eta, const Spectrum<R>& tint,
+                        const Broadness<R>& spread, const Coats& coats, const Repeated& repeated,
+                        const Sent& sent) {
     SentBack back(wo, eta);
     back.broad = spread.held + spread.even;
     for (int j = 0; j < kWavelengths; ++j) {
@@ -241,7 +242,7 @@ struct SentBack {
         back.share[j] = back.share[j - 1];
         continue;
       }
-      back.share[j] = sent(j, law);
+      back.share[j] = tint[j] * limited(sent(j, law), R(0), R(1));
       if (wo.z > 0) back.share[j] *= coats.split(j, back.cosine[j]).transmitted;
     }
     return back;

@@ -47,17 +47,16 @@ struct PhongGlass {
            });
   }
   /// That, of light along `w` (materials/phong_coat.h); `coats` as in SentBack::smooth.
+  /// \pre not specular
   template <class Coats>
   SentBack<R> sent_back(Vec3<R> w, const Coats& coats) const {
-    const SpecularTerms<R> smooth = terms(w);
-    if (specular()) return SentBack<R>::smooth(smooth, w, coats);
-    const Spectrum<R>& tint = w.z > 0 ? reflected : transmitted;
+    Spectrum<R> eta;
+    for (int j = 0; j < kWavelengths; ++j) eta[j] = relative_eta(ior[j], w);
     return SentBack<R>::rough(
-        w, smooth.eta, Broadness<R>::facets(std::sqrt(axes::phong_area(n))), coats,
+        w, eta, w.z > 0 ? reflected : transmitted,
+        Broadness<R>::facets(std::sqrt(axes::phong_area(n))), coats,
         [this](int j) { return repeated(j); },
-        [&](int j, const CoatOnGlass<R>& law) {
-          return tint[j] * sent_back(w, smooth.eta[j], law);
-        });
+        [&](int j, const CoatOnGlass<R>& law) { return sent_back(w, eta[j], law); });
   }
 
   Spectrum<R> estimate(Vec3<R> wo) const {
@@ -134,7 +133,7 @@ struct PhongGlass {
       sent += weights[i] * law.sent[!outside][i] *
               (outside ? o.reflected + there.reflected : o.transmitted + there.transmitted);
     }
-    return limited(sent / 2, R(0), R(1));
+    return sent / 2;
   }
 
   R kernel(R p2) const {
