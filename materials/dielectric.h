@@ -102,7 +102,7 @@ struct RoughInterface {
 
   /// Whether it is known what coats send back.
   bool knows_coats() const {
-    bool known = !Face::kFilmed || facets.ax == facets.ay;
+    bool known = true;
     for (int j = 0; j < kWavelengths; ++j) known &= in_glass_tables(rough_eta(j, Vec3<R>{0, 0, 1}));
     return known || specular();
   }
@@ -112,24 +112,15 @@ struct RoughInterface {
     Spectrum<R> eta;
     for (int j = 0; j < kWavelengths; ++j) eta[j] = rough_eta(j, w);
     const bool outside = w.z > 0;
-    typename Face::Loss loss;
-    int known = -1;  // the wavelength of `loss`
+    Further further;
+    if constexpr (Face::kFilmed) further = further_outside(w, eta, solved);
     const auto sent = [&](int j, const CoatOnGlass<R>& law) {
       const R glass = outside ? eta[j] : 1 / eta[j];
       R all = materials::sent_back(glass_tables(facets), facets.ax, facets.ay, w, glass, law);
       if constexpr (Face::kFilmed) {
-        int first = j;
-        while (same_index(first)) --first;
-        const InterfaceLoss<R>&here = solved.bare[!outside][first],
-              &there = solved.bare[outside][first];
-        if (first != known) loss = face.loss(facets, here, w);
-        known = first;
-        const auto further = [outside](R lost, R transmit) {
-          return lost * (outside ? 1 - transmit : transmit);
-        };
-        const R bare = further(loss.bare, transmitted_share(here.mean(), there.mean(), eta[j])),
-                filmed = further(solved.law[j].of(loss), solved.transmit[!outside][j]);
-        all += more_sent_back(facets.ax, w, glass, law, solved.law[j].q, bare, filmed);
+        const R like = solved.bare[0][0].stretched({w.x, w.y, std::abs(w.z)}).like();
+        all += more_sent_back(like, w, glass, law, solved.law[j].q, further.bare[j],
+                              further.filmed[j]);
       }
       return all;
     };
@@ -252,6 +243,28 @@ struct RoughInterface {
     for (int j = 0; j < kWavelengths; ++j) {
       if (!same_index(j)) loss = face.loss(facets, solved.bare[w.z < 0][j], w);
       to[j] = solved.law[j].of(loss);
+    }
+    return to;
+  }
+
+  /// What of light along `w` bounces on and then goes outside.
+  struct Further {
+    Spectrum<R> bare, filmed;
+  };
+  Further further_outside(Vec3<R> w, const Spectrum<R>& eta, const Solved& solved) const {
+    Further to;
+    typename Face::Loss loss;
+    const bool inside = w.z < 0;
+    R transmit = 0;
+    for (int j = 0; j < kWavelengths; ++j) {
+      if (!same_index(j)) {
+        const InterfaceLoss<R>&here = solved.bare[inside][j], &there = solved.bare[!inside][j];
+        loss = face.loss(facets, here, w);
+        transmit = transmitted_share(here.mean(), there.mean(), eta[j]);
+      }
+      const R filmed = solved.transmit[inside][j];
+      to.bare[j] = loss.bare * (inside ? transmit : 1 - transmit);
+      to.filmed[j] = solved.law[j].of(loss) * (inside ? filmed : 1 - filmed);
     }
     return to;
   }

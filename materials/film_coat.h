@@ -7,7 +7,8 @@
 /// lets q - 1 = sum_k q_k t_k(c) times more through at each facet and reflects as much less; tables
 /// that are computed when the project is built (materials/tables/film_glass.cpp) hold for each k
 /// the weights of the points for what round GGX facets so send outside, and for l and D_k there, by
-/// which what bounces on is distributed.
+/// which what bounces on is distributed. Stretched facets count as the round ones that are as wide
+/// along the direction.
 
 #include <cmath>
 

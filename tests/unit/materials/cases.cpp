@@ -146,6 +146,14 @@ std::vector<Case> smooth_cases() {
            ramp(0.1, 1), 1.7));
   lossless("two coats over glass",
            coat(mirror(1), fresnel_mix(dielectric(1.5, 0.4), mirror(1), 1.3), 0, 0, 1.7));
+  put("rough coat over rough glass under a film",
+      coat(microfacet(ramp(0.9, 1), 0.5),
+           film_dielectric(ramp(1.6, 1.4), 1.9, 350e-9, ramp(400e-9, 700e-9), 0.5, ramp(0.5, 1), 1,
+                           0.4),
+           0.2, ramp(0.1, 1), 1.4));
+  put("film over rough glass",
+      film_mix(dielectric(ramp(1.6, 1.4), 0.5), microfacet(ramp(0.9, 1), 0.4), 1.3, 1.8, 300e-9,
+               ramp(400e-9, 700e-9)));
   put("rough coat over phong_glass",
       coat(microfacet(ramp(0.9, 1), 0.5), phong_glass(ramp(1.6, 1.4), 40, ramp(0.5, 1)), 0.2,
            ramp(0.1, 1), 1.4));
