@@ -376,7 +376,7 @@ inline void find_coats(const Layout& layout, const R* params, CoatTree<R>& coats
       coated(a, b, p, detail::films(p + kWavelengths));
     else if (node.lobe == Lobe::Coat)
       coated(b, a, p + 1 + kWavelengths, {});
-    else if (node.lobe == Lobe::Layer && layout.unturned(a).lobe == Lobe::Sheen)
+    else if (node.lobe == Lobe::Layer && layout.below_scales(a).lobe == Lobe::Sheen)
       above[b] = {};
     else if (node.lobe == Lobe::Tilt)
       above[a] = {.matte_base = above[i].matte_base};

@@ -68,7 +68,7 @@
 /// min(T, T') as if both directions were outside, and loses up to a tenth about the critical angle.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
-/// white `top`:
+/// white `top`, or of a scaled one so many times less:
 ///   top: weight
 ///   base: 1 - E(wo)             in radiance; of importance 1 - E(wi). For the Lambert lobes right
 ///                               below it (1 - E)(1 - E') / (1 - mean E)
@@ -135,17 +135,26 @@ template <class R>
 struct LayerLeaves {
   R weight;
   std::optional<SheenLayer<R>> fibres;  ///< none: all but the weight
+  Spectrum<R> share;                    ///< of white fibres, with the scales above them
 
   LayerLeaves(const Layout& layout, const R* params, const Layout::Node& node)
-      : weight(limited(params[node.first_param], R(0), R(1))) {
-    const Layout::Node& top = layout.unturned(node.children[0]);
-    if (top.lobe == Lobe::Sheen) fibres.emplace(params[top.first_param + kWavelengths]);
+      : weight(limited(params[node.first_param], R(0), R(1))), share(weight) {
+    const Layout::Node& top = layout.below_scales(node.children[0]);
+    if (top.lobe != Lobe::Sheen) return;
+    fibres.emplace(params[top.first_param + kWavelengths]);
+    const Layout::Node* above = &layout.nodes()[node.children[0]];
+    for (; above != &top; above = &layout.nodes()[above->children[0]])
+      if (above->lobe == Lobe::Scale)
+        share *= Spectrum<R>::map([](R x) { return limited(x, R(0), R(1)); },
+                                  weight_at(params + above->first_param));
   }
 
-  R along(R c) const { return 1 - weight * (fibres ? fibres->albedo(c) : R(1)); }
+  Spectrum<R> along(R c) const {
+    return Spectrum<R>(R(1)) - share * (fibres ? fibres->albedo(c) : R(1));
+  }
   /// Of fibres.
-  R lambert(R cos_o, R cos_i) const {
-    return along(cos_o) * along(cos_i) / (1 - weight * fibres->mean_albedo());
+  Spectrum<R> lambert(R cos_o, R cos_i) const {
+    return along(cos_o) * along(cos_i) / (Spectrum<R>(R(1)) - share * fibres->mean_albedo());
   }
 };
 

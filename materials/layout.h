@@ -44,10 +44,10 @@ class Layout {
 
   std::span<const Node> nodes() const { return nodes_; }
   bool empty() const { return nodes_.empty(); }
-  /// What is below the turns of node `i`: of a lobe that is alike all around the normal they change
-  /// nothing.
-  const Node& unturned(int i) const {
-    while (nodes_[i].lobe == Lobe::Turn) i = nodes_[i].children[0];
+  /// What is below the turns and scales of node `i`; of a lobe that is alike all around the normal
+  /// turns change nothing.
+  const Node& below_scales(int i) const {
+    while (nodes_[i].lobe == Lobe::Turn || nodes_[i].lobe == Lobe::Scale) i = nodes_[i].children[0];
     return nodes_[i];
   }
   /// Numbers in the flat array.

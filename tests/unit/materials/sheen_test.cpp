@@ -145,6 +145,10 @@ TEST_CASE("sheen's albedo is its table's, and a white base under it stays white"
       const Material base = mix(matte(1), glossy(1, 2), 0.4);
       CHECK(std::abs(albedo(layer(sheen(1, roughness), base, 0.6), degrees, Mode::Radiance) - 1) <
             1e-4);
+      // What a scale takes of the fibres is left to the base.
+      CHECK(std::abs(albedo(layer(scale(turn(sheen(1, roughness), 0.7), 0.3), base, 0.6), degrees,
+                            Mode::Radiance) -
+                     1) < 1e-4);
       // A colour only takes away.
       CHECK(albedo(layer(sheen(0.3, roughness), matte(1)), degrees, Mode::Radiance) ==
             doctest::Approx(1 - 0.7 * r).epsilon(1e-3));
