@@ -115,6 +115,20 @@ inline bool is_specular(const M& model) {
     return model.specular();
 }
 
+/// What coats over the model of node `i` send back of light along `w`, of its frame.
+template <class R, class M>
+inline SentBack<R> sent_back(const M& model, Vec3<R> w, int i, const CoatsOnGlass<R>& coats,
+                             const typename Bsdf<R>::Choice& choice) {
+  if constexpr (requires { model.sent_back(w, coats, model.solved()); }) {
+    using Solved = decltype(model.solved());
+    if (!is_specular(model))
+      return model.sent_back(w, coats, choice.models[i].template get<Solved>());
+  } else if constexpr (requires { model.sent_back(w, coats); }) {
+    if (!is_specular(model)) return model.sent_back(w, coats);
+  }
+  return SentBack<R>::smooth(model.terms(w), w, coats);
+}
+
 }  // namespace detail
 
 template <class R>
@@ -344,15 +358,7 @@ Sent<R> Bsdf<R>::sent_back(int base, Vec3<R> w, const Choice& choice) const {
     const Vec3<R> seen = choice.frames.seen(i, w);
     with_model(i, 0, [&](const auto& model) {
       if constexpr (detail::CanBeSpecular<std::decay_t<decltype(model)>>)
-        if (detail::is_specular(model)) {
-          add(SentBack<R>::smooth(model.terms(seen), seen, coats), weight);
-          return 0;
-        }
-      if constexpr (requires { model.sent_back(seen, coats, model.solved()); })
-        add(model.sent_back(seen, coats, choice.models[i].template get<decltype(model.solved())>()),
-            weight);
-      else if constexpr (requires { model.sent_back(seen, coats); })
-        add(model.sent_back(seen, coats), weight);
+        add(detail::sent_back<R>(model, seen, i, coats, choice), weight);
       return 0;
     });
   });

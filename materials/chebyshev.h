@@ -35,4 +35,23 @@ inline const std::array<double, N>& chebyshev_points() {
   return points;
 }
 
+/// [to][from]: what values at `From` points are multiplied with for those of their polynomial at
+/// `To` points.
+template <std::size_t To, std::size_t From>
+inline const std::array<std::array<double, From>, To>& chebyshev_transfer() {
+  static const auto matrix = [] {
+    std::array<std::array<double, From>, To> a;
+    for (std::size_t m = 0; m < To; ++m)
+      for (std::size_t i = 0; i < From; ++i) {
+        const auto there = chebyshev_terms<From>(chebyshev_points<To>()[m]),
+                   here = chebyshev_terms<From>(chebyshev_points<From>()[i]);
+        a[m][i] = -1;
+        for (std::size_t k = 0; k < From; ++k) a[m][i] += 2 * there[k] * here[k];
+        a[m][i] /= From;
+      }
+    return a;
+  }();
+  return matrix;
+}
+
 }  // namespace mms::materials

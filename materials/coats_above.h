@@ -447,18 +447,38 @@ namespace detail {
 /// What they are at each wavelength.
 template <class R>
 inline std::array<CoatOnGlass<R>, kWavelengths> coats_on_glass(const CoatTree<R>& coats, int base) {
+  // E and T at the points, and along the normal, of all that count together.
+  std::array<std::array<FresnelSplit<R>, kGlassPoints + 1>, kWavelengths> all;
+  for (auto& of_points : all) of_points.fill({R(0), R(1)});
+  std::bitset<kWavelengths> together, repeated;
+  together.set();
+  repeated.set().reset(0);
+  for (int one = base; one >= 0 && together.any(); one = coats[one].upper) {
+    const CoatNumbers<R>& numbers = coats.numbers(one);
+    for (int i = 0; i <= kGlassPoints; ++i) {
+      CoatDirection<R> along(i < kGlassPoints ? R(chebyshev_points<kGlassPoints>()[i]) : R(1));
+      FresnelSplit<R> e{};
+      for (int j = 0; j < kWavelengths; ++j) {
+        if (!numbers.repeated(j)) e = numbers.split(j, along);
+        if (!together[j]) continue;
+        all[j][i].reflected += all[j][i].transmitted * e.reflected;
+        all[j][i].transmitted *= e.transmitted;
+      }
+    }
+    for (int j = 1; j < kWavelengths; ++j)
+      repeated[j] =
+          repeated[j] && together[j] == together[j - 1] && (!together[j] || numbers.repeated(j));
+    for (int j = 0; j < kWavelengths; ++j) together[j] = together[j] && coats[one].nested[j];
+  }
   std::array<CoatOnGlass<R>, kWavelengths> law;
   for (int j = 0; j < kWavelengths; ++j) {
-    bool repeated = j > 0;
-    for_each_together(coats, base, j, [&](int one) {
-      const CoatAbove<R>& coat = coats[one];
-      repeated = repeated && coats.numbers(one).repeated(j) && coat.nested[j] == coat.nested[j - 1];
-    });
-    if (repeated)
-      law[j] = law[j - 1];
-    else if (coats.numbers(base).eta[j] > 1)
-      law[j] = CoatOnGlass<R>([&](R z) { return split_together(coats, base, j, z); });
-    law[j].repeated = repeated;
+    if (coats.numbers(base).eta[j] > 1) {
+      typename CoatOnGlass<R>::Points reflected, through;
+      for (int i = 0; i < kGlassPoints; ++i)
+        reflected[i] = all[j][i].reflected, through[i] = all[j][i].transmitted;
+      law[j] = {reflected, through, all[j][kGlassPoints].transmitted};
+    }
+    law[j].repeated = repeated[j];
   }
   return law;
 }

@@ -8,6 +8,8 @@
 /// is what the hypothetical pdfs hold. What facets send on to other facets is given back on both
 /// sides (materials/energy.h).
 
+#include <utility>
+
 #include "materials/fresnel.h"
 #include "materials/glass_coat.h"
 #include "materials/microfacet.h"
@@ -49,7 +51,8 @@ struct BareFace {
   struct Law {
     R of(Loss loss) const { return loss; }
   };
-  struct Shared {};  ///< by laws of the same indices
+  struct Shared {};       ///< by laws of the same indices
+  struct SentWeights {};  ///< of what coats send back, besides those of any interface
   Law law(int, R, Shared&) const { return {}; }
 };
 
@@ -114,14 +117,20 @@ struct RoughInterface {
     const bool outside = w.z > 0;
     Further further;
     if constexpr (Face::kFilmed) further = further_outside(w, eta, solved);
+    R glass = 0;  // the index that the weights are of
+    GlassWeights<R> weights;
+    typename Face::SentWeights film_weights;
     const auto sent = [&](int j, const CoatOnGlass<R>& law) {
-      const R glass = outside ? eta[j] : 1 / eta[j];
-      R all = materials::sent_back(glass_tables(facets), facets.ax, facets.ay, w, glass, law);
-      if constexpr (Face::kFilmed) {
-        const R like = solved.bare[0][0].stretched({w.x, w.y, std::abs(w.z)}).like();
-        all += more_sent_back(like, w, glass, law, solved.law[j].q, further.bare[j],
-                              further.filmed[j]);
+      const R index = outside ? eta[j] : 1 / eta[j];
+      if (std::exchange(glass, index) != index) {
+        weights = {glass_tables(facets), facets.ax, facets.ay, w, index};
+        if constexpr (Face::kFilmed)
+          film_weights = {solved.bare[0][0].stretched({w.x, w.y, std::abs(w.z)}).like(), w, index};
       }
+      R all = weights.sent_back(law);
+      if constexpr (Face::kFilmed)
+        all +=
+            film_weights.more_sent_back(law, solved.law[j].q, further.bare[j], further.filmed[j]);
       return all;
     };
     return SentBack<R>::rough(

@@ -73,6 +73,7 @@ struct FilmFace {
   Loss mean_loss(const Ggx<R>& facets, const InterfaceLoss<R>& bare) const {
     return Loss::mean(kGgxFilm, bare, mirrors(facets), terms());
   }
+  using SentWeights = FilmGlassWeights<R>;
   using Law = FilmLaw<R>;
   using Shared = SharedFilms<R>;
   /// Of the index inside.

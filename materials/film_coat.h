@@ -28,44 +28,57 @@ namespace axes {
 inline constexpr int kFilmGlassAlpha = 18, kFilmGlassIndex = 14, kFilmGlassDirection[] = {36, 72};
 }
 
-/// How much more of light along `w` coats send back, but for T(o), than below bare facets of width
-/// `alpha` and index `glass`: `q` is of the film, and `bare` and `filmed` what bounces on and then
-/// goes outside. \pre in_glass_tables(glass)
+/// What the tables hold for light along one direction.
 template <class R>
-inline R more_sent_back(R alpha, Vec3<R> w, R glass, const CoatOnGlass<R>& coat,
-                        const R (&q)[axes::kFilmTerms], R bare, R filmed) {
-  using namespace axes;
-  constexpr int points = kFewGlassPoints, terms = points * kFilmTerms;
-  const bool inside = w.z < 0;
-  const R z = std::min(std::abs(w.z), R(1)), s = std::sqrt(w.x * w.x + w.y * w.y);
-  const auto a = Stencil<R>::at(glass_alpha(alpha), kFilmGlassAlpha);
-  const auto n = Stencil<R>::at(glass_index(glass), kFilmGlassIndex);
-  const auto d =
-      Stencil<R>::at(glass_direction(inside, z, s, alpha, glass), kFilmGlassDirection[inside]);
-  R changes[terms] = {}, losses[terms + points] = {};
-  const int n1 = terms * coefficients(kFilmGlassDirection[inside]),
-            n0 = n1 * coefficients(kFilmGlassIndex);
-  add_terms(changes, terms, kGgxFilmGlass.change[inside], R(1), a, n0, n, n1, d, terms);
-  add_terms(losses, terms + points, kGgxFilmGlass.further, R(1), a,
-            (terms + points) * coefficients(kFilmGlassIndex), n, terms + points);
-  // What bounces on goes where losses are, with a film or without.
-  R sent = 0, here[2] = {}, all[2] = {};
-  for (int i = 0; i < points; ++i) {
-    const R* l = losses + i * (1 + kFilmTerms);
-    R change = 0, filmed_loss = l[0];
-    for (int k = 0; k < kFilmTerms; ++k) {
-      change += q[k] * changes[i * kFilmTerms + k];
-      filmed_loss -= q[k] * l[1 + k];
-    }
-    const R x = coat.few[inside][i];
-    sent += x * (inside ? change : -change);
-    here[0] += x * l[0], all[0] += l[0];
-    here[1] += x * filmed_loss, all[1] += filmed_loss;
+class FilmGlassWeights {
+ public:
+  FilmGlassWeights() = default;
+  /// Along `w`, of facets of width `alpha` and index `glass`. \pre in_glass_tables(glass)
+  FilmGlassWeights(R alpha, Vec3<R> w, R glass) : inside_(w.z < 0) {
+    using namespace axes;
+    const R z = std::min(std::abs(w.z), R(1)), s = std::sqrt(w.x * w.x + w.y * w.y);
+    const auto a = Stencil<R>::at(glass_alpha(alpha), kFilmGlassAlpha);
+    const auto n = Stencil<R>::at(glass_index(glass), kFilmGlassIndex);
+    const auto d =
+        Stencil<R>::at(glass_direction(inside_, z, s, alpha, glass), kFilmGlassDirection[inside_]);
+    const int n1 = kChanges * coefficients(kFilmGlassDirection[inside_]),
+              n0 = n1 * coefficients(kFilmGlassIndex);
+    add_terms(changes_, kChanges, kGgxFilmGlass.change[inside_], R(1), a, n0, n, n1, d, kChanges);
+    add_terms(losses_, kLosses, kGgxFilmGlass.further, R(1), a,
+              kLosses * coefficients(kFilmGlassIndex), n, kLosses);
   }
-  const auto share = [&](int f) {
-    return all[f] > 0 ? limited(here[f] / all[f], R(0), R(1)) : R(0);
-  };
-  return sent + filmed * share(1) - bare * share(0);
-}
+
+  /// How much more coats send back, but for T(o), than below the bare interface: `q` is of the
+  /// film, and `bare` and `filmed` what bounces on and then goes outside.
+  R more_sent_back(const CoatOnGlass<R>& coat, const R (&q)[axes::kFilmTerms], R bare,
+                   R filmed) const {
+    using axes::kFilmTerms;
+    const auto few = coat.few_sent(inside_);
+    // What bounces on goes where losses are, with a film or without.
+    R sent = 0, here[2] = {}, all[2] = {};
+    for (int i = 0; i < kFewGlassPoints; ++i) {
+      const R* l = losses_ + i * (1 + kFilmTerms);
+      R change = 0, filmed_loss = l[0];
+      for (int k = 0; k < kFilmTerms; ++k) {
+        change += q[k] * changes_[i * kFilmTerms + k];
+        filmed_loss -= q[k] * l[1 + k];
+      }
+      const R x = few[i];
+      sent += x * (inside_ ? change : -change);
+      here[0] += x * l[0], all[0] += l[0];
+      here[1] += x * filmed_loss, all[1] += filmed_loss;
+    }
+    const auto share = [&](int f) {
+      return all[f] > 0 ? limited(here[f] / all[f], R(0), R(1)) : R(0);
+    };
+    return sent + filmed * share(1) - bare * share(0);
+  }
+
+ private:
+  static constexpr int kChanges = kFewGlassPoints * axes::kFilmTerms,
+                       kLosses = kFewGlassPoints * (1 + axes::kFilmTerms);
+  bool inside_ = false;
+  R changes_[kChanges] = {}, losses_[kLosses] = {};
+};
 
 }  // namespace mms::materials

@@ -114,37 +114,34 @@ inline bool in_glass_tables(R eta) {
   return eta > 1 && eta <= 4;
 }
 
-/// What of each point's weight is sent back: [0] of light from outside, for what it is over T(o);
-/// [1] from inside.
-template <class R, std::size_t Points>
-using SentOfPoints = std::array<std::array<R, Points>, 2>;
-
 /// The coats above glass, at one wavelength.
 template <class R>
 struct CoatOnGlass {
+  using Points = std::array<R, kGlassPoints>;
+
   bool counts = false;    ///< or what follows is of no coats
   bool repeated = false;  ///< it is as at the wavelength before
   R most{1};              ///< M
-  SentOfPoints<R, kGlassPoints> sent{};
-  SentOfPoints<R, kFewGlassPoints> few{};
+  /// What of each point's weight they send back: [0] of light from outside, for what it is over
+  /// T(o); [1] from inside.
+  Points sent[2] = {};
 
   CoatOnGlass() = default;
-  /// `split(z)` says E and T.
-  template <class Split>
-  explicit CoatOnGlass(const Split& split) : counts(true), most(split(R(1)).transmitted) {
-    const auto find = [&]<std::size_t Points>(SentOfPoints<R, Points>& of) {
-      for (std::size_t i = 0; i < Points; ++i) {
-        const FresnelSplit<R> e = split(R(chebyshev_points<Points>()[i]));
-        of[0][i] = e.transmitted;
-        of[1][i] = e.reflected;
-        most = std::max(most, e.transmitted);
-      }
-    };
-    find(sent);
-    find(few);
-    const auto lacks = [&](R& t) { t = most > 0 ? (most - t) / most : R(0); };
-    std::for_each(sent[0].begin(), sent[0].end(), lacks);
-    std::for_each(few[0].begin(), few[0].end(), lacks);
+  /// From E and T at the points, and T along the normal.
+  CoatOnGlass(const Points& reflected, const Points& through, R normal)
+      : counts(true),
+        most(std::max(normal, *std::max_element(through.begin(), through.end()))),
+        sent{through, reflected} {
+    for (R& t : sent[0]) t = most > 0 ? (most - t) / most : R(0);
+  }
+
+  /// The same of the fewer points.
+  std::array<R, kFewGlassPoints> few_sent(bool inside) const {
+    std::array<R, kFewGlassPoints> few{};
+    const auto& matrix = chebyshev_transfer<kFewGlassPoints, kGlassPoints>();
+    for (int m = 0; m < kFewGlassPoints; ++m)
+      for (int i = 0; i < kGlassPoints; ++i) few[m] += R(matrix[m][i]) * sent[inside][i];
+    return few;
   }
 };
 
@@ -176,10 +173,11 @@ inline std::array<R, kGlassPoints> round_weights(const GlassTables& tables,
   return weights;
 }
 
-/// How much more of what comes along `f` itself is sent back.
+/// How much more those of the fewer points are for `f` itself.
 template <class R>
-inline R sent_of_shape(const GlassTables& tables, const StretchedInterface<R>& f, bool inside,
-                       R glass, const CoatOnGlass<R>& coat) {
+inline std::array<R, kFewGlassPoints> shape_weights(const GlassTables& tables,
+                                                    const StretchedInterface<R>& f, bool inside,
+                                                    R glass) {
   using namespace axes;
   using Basis = ShapeBasis<R>;
   const BentGlassGrid& grid = kBentGlass[inside];
@@ -187,30 +185,44 @@ inline R sent_of_shape(const GlassTables& tables, const StretchedInterface<R>& f
   const Basis basis(f.shape(widening(inside ? 1 / glass : glass, alpha)), grid.degree);
   const int n2 = kFewGlassPoints * basis.count, n1 = n2 * coefficients(grid.direction),
             n0 = n1 * coefficients(grid.index);
-  R shapes[kFewGlassPoints * Basis::kMost] = {}, sent[Basis::kMost] = {};
-  add_terms(shapes, n2, tables.bent[inside], R(1), Stencil<R>::at(glass_alpha(alpha), grid.width),
-            n0, Stencil<R>::at(glass_index(glass), grid.index), n1,
+  R sums[kFewGlassPoints * Basis::kMost] = {};
+  add_terms(sums, n2, tables.bent[inside], R(1), Stencil<R>::at(glass_alpha(alpha), grid.width), n0,
+            Stencil<R>::at(glass_index(glass), grid.index), n1,
             Stencil<R>::at(glass_direction(inside, f.z, s, alpha, glass), grid.direction), n2);
-  for (int i = 0; i < kFewGlassPoints; ++i)
-    for (int t = 0; t < basis.count; ++t)
-      sent[t] += coat.few[inside][i] * shapes[i * basis.count + t];
-  return basis.sum(sent);
+  std::array<R, kFewGlassPoints> weights;
+  for (int i = 0; i < kFewGlassPoints; ++i) weights[i] = basis.sum(sums + i * basis.count);
+  return weights;
 }
 
-/// S of light along `w`, but for T(o), of facets of the widths `ax` and `ay` and index `glass`.
-/// \pre in_glass_tables(glass)
+/// The weights for light along one direction.
 template <class R>
-inline R sent_back(const GlassTables& tables, R ax, R ay, Vec3<R> w, R glass,
-                   const CoatOnGlass<R>& coat) {
-  const bool inside = w.z < 0;
-  const R z = std::min(std::abs(w.z), R(1));
-  const StretchedInterface<R> f = ax < ay ? StretchedInterface<R>{ay, ax, w.y, w.x, z}
-                                          : StretchedInterface<R>{ax, ay, w.x, w.y, z};
-  const auto weights = round_weights(tables, f, inside, glass);
-  R sent = ax == ay ? R(0) : sent_of_shape(tables, f, inside, glass, coat);
-  for (int i = 0; i < kGlassPoints; ++i) sent += weights[i] * coat.sent[inside][i];
-  return sent;
-}
+struct GlassWeights {
+  bool inside = false, stretched = false;
+  std::array<R, kGlassPoints> round{};
+  std::array<R, kFewGlassPoints> shape{};
+
+  GlassWeights() = default;
+  /// Along `w`, of facets of the widths `ax` and `ay` and index `glass`.
+  /// \pre in_glass_tables(glass)
+  GlassWeights(const GlassTables& tables, R ax, R ay, Vec3<R> w, R glass)
+      : inside(w.z < 0), stretched(ax != ay) {
+    const R z = std::min(std::abs(w.z), R(1));
+    const StretchedInterface<R> f = ax < ay ? StretchedInterface<R>{ay, ax, w.y, w.x, z}
+                                            : StretchedInterface<R>{ax, ay, w.x, w.y, z};
+    round = round_weights(tables, f, inside, glass);
+    if (stretched) shape = shape_weights(tables, f, inside, glass);
+  }
+
+  /// S, but for T(o).
+  R sent_back(const CoatOnGlass<R>& coat) const {
+    R sent = 0;
+    for (int i = 0; i < kGlassPoints; ++i) sent += round[i] * coat.sent[inside][i];
+    if (!stretched) return sent;
+    const auto few = coat.few_sent(inside);
+    for (int i = 0; i < kFewGlassPoints; ++i) sent += shape[i] * few[i];
+    return sent;
+  }
+};
 
 /// S at each wavelength, and the |cosine| outside of the light that it is, or nearly.
 template <class R>

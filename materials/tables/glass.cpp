@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/glass_coat.h and writes them as C++ to the named file: run by
-// the build, in two minutes of one core.
+// the build, in a minute of one core.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -44,12 +44,11 @@ std::array<double, Points> weights(const Facets& facets, double glass, Vec3d w,
 
 /// The same by fewer points.
 std::array<double, kFewGlassPoints> fewer(const std::array<double, kGlassPoints>& weights) {
-  std::array<double, kFewGlassPoints> moments{};
-  for (int i = 0; i < kGlassPoints; ++i) {
-    const auto t = chebyshev_terms<kFewGlassPoints>(chebyshev_points<kGlassPoints>()[i]);
-    for (int k = 0; k < kFewGlassPoints; ++k) moments[k] += weights[i] * t[k];
-  }
-  return point_weights(moments);
+  std::array<double, kFewGlassPoints> few{};
+  const auto& matrix = chebyshev_transfer<kGlassPoints, kFewGlassPoints>();
+  for (int i = 0; i < kGlassPoints; ++i)
+    for (int m = 0; m < kFewGlassPoints; ++m) few[m] += weights[i] * matrix[i][m];
+  return few;
 }
 
 const auto kZero = [](const double*) { return 0.0; };

@@ -155,8 +155,8 @@ std::vector<Case> smooth_cases() {
       film_mix(dielectric(ramp(1.6, 1.4), 0.5), microfacet(ramp(0.9, 1), 0.4), 1.3, 1.8, 300e-9,
                ramp(400e-9, 700e-9)));
   put("rough coat over phong_glass",
-      coat(microfacet(ramp(0.9, 1), 0.5), phong_glass(ramp(1.6, 1.4), 40, ramp(0.5, 1)), 0.2,
-           ramp(0.1, 1), 1.4));
+      coat(microfacet(ramp(0.9, 1), 0.5), phong_glass(1.5, 40, ramp(0.5, 1)), 0.2, ramp(0.1, 1),
+           1.4));
   lossless("coat over glossy_through",
            coat(mirror(1), tinted(Lobe::GlossyThrough, 1, {15, 40}), 0, 0, ramp(1.4, 1.6)));
   lossless("coat over glossy_refraction",
