@@ -9,8 +9,7 @@
 
 #include "base/quadrature.h"
 #include "materials/phong_coat.h"
-#include "materials/tables/grid.h"
-#include "materials/tables/points.h"
+#include "materials/tables/glass.h"
 
 namespace mms::materials::tables {
 namespace {
@@ -68,31 +67,21 @@ std::array<double, kGlassPoints> weights(double n, double momentum) {
   return point_weights(sum);
 }
 
-/// The argument in [from, to] at which a rising function has that value.
-template <class F>
-double inverse(const F& f, double value, double from, double to) {
-  for (int i = 0; i < 100; ++i) {
-    const double middle = (from + to) / 2;
-    (f(middle) < value ? from : to) = middle;
-  }
-  return (from + to) / 2;
-}
-
 std::vector<float> table() {
   using namespace axes;
-  Grid grid({kPhongExponent, kPhongMomentum, kGlassPoints}, [](const double*) { return 0.0; });
+  Grid grid({kPhongExponent, kPhongMomentum, kGlassPoints}, zero);
   parallel(kPhongExponent, [&](int e) {
-    const double n =
-        inverse(phong_exponent<double>, double(e) / (kPhongExponent - 1), 0, 2 * kMaxExponent);
+    constexpr double most = 2 * kMaxExponent;
+    const double n = most * inverse([](double x) { return phong_exponent(most * x); },
+                                    double(e) / (kPhongExponent - 1));
     for (int m = 0; m < kPhongMomentum; ++m) {
-      const double momentum = inverse([n](double p) { return phong_momentum(p, n); },
-                                      double(m) / (kPhongMomentum - 1), 0, 2);
+      const double momentum = 2 * inverse([n](double x) { return phong_momentum(2 * x, n); },
+                                          double(m) / (kPhongMomentum - 1));
       const auto w = weights(n, momentum);
       std::copy(w.begin(), w.end(), &grid.values[(e * kPhongMomentum + m) * kGlassPoints]);
     }
   });
-  const std::vector<double> spline = grid.spline(1);
-  return {spline.begin(), spline.end()};
+  return spline_of(grid);
 }
 
 }  // namespace
