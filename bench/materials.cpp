@@ -138,6 +138,9 @@ constexpr const char* kVariants[] = {
     "coat(microfacet(1, 0.3), dielectric(1.5))",
     "coat(microfacet(1, 0.3), dielectric(1.5, 0.4))",
     "coat(microfacet(1, 0.3), dielectric(1.5, 0.4, anisotropy = 0.8))",
+    "coat(mirror(), phong_glass(1.5, 40.0))",
+    "film_mix(dielectric(1.5, 0.4), mirror(), 1.5, 1.38, 300nm, $wavelength)",
+    "coat(mirror(), film_dielectric(1.5, 1.38, 300nm, $wavelength, 0.4))",
     "coat(microfacet(1, 0.3), microfacet(0.8, 0.4), ior = 1.45 + 1e-14 / ($wavelength * "
     "$wavelength))",
 };
