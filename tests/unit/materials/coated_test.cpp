@@ -456,7 +456,12 @@ TEST_CASE("a choice that was made for other materials changes nothing") {
       coat(microfacet(1, 0.3), dielectric(1.5, 0.3), 0, 0, 1.6),
       coat(microfacet(1, 0.3), dielectric(1.5, 0.3), 0, 0, 1.7),
       coat(microfacet(1, 0.3), dielectric(1.5, 0.35), 0, 0, 1.7),
-      coat(microfacet(1, 0.3), interface(Lobe::PhongGlass, 1.5, 1e3, 1, 1), 0, 0, 1.7),
+      coat(microfacet(1, 0.3), phong_glass(1.5, 1e3), 0, 0, 1.7),
+      coat(microfacet(1, 0.3), phong_glass(1.5, 1e2), 0, 0, 1.7),
+      coat(microfacet(1, 0.3), film_dielectric(1.5, 1.8, 3e-7, 5e-7, 0.3), 0, 0, 1.7),
+      coat(microfacet(1, 0.3), film_dielectric(1.5, 1.8, 4e-7, 5e-7, 0.3), 0, 0, 1.7),
+      film_mix(dielectric(1.5, 0.3), mirror(1), 1.5, 1.8, 3e-7, 5e-7),
+      film_mix(dielectric(1.5, 0.3), mirror(1), 1.5, 1.8, 4e-7, 5e-7),
       coat(mirror(1), dielectric(1.5, 0.3), 0, 0, 1.6),
       coat(microfacet(1, 0.3), coat(mirror(1), dielectric(1.5, 0.3), 0, 0, 1.2), 0, 0, 1.6),
       // One node each, at one place.
