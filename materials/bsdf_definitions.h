@@ -228,36 +228,32 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
   choice.frames.reset();
   if (node_count() == 0 || in_surface(wo)) return;
   auto& probability = choice.probability.of;
-  // What the model of a node sees along `wo` is remembered.
-  const auto see = [&](int i) {
-    const Vec3<R> w = choice.frames.seen(i, wo);
-    with_model(i, 0, [&](const auto& model) {
-      if (!detail::is_specular(model)) detail::see<R>(model, *layout_, params_, w, i, choice);
-      return 0;
-    });
-  };
+  // Of a node's model; what that has seen along `wo` is remembered.
   const auto estimate = [&](int i) {
     const Vec3<R> w = choice.frames.seen(i, wo);
-    return with_model(i, Spectrum<R>(), [&](const auto& model) { return model.estimate(w); });
+    return with_model(i, Spectrum<R>(), [&](const auto& model) {
+      if (!detail::is_specular(model)) detail::see<R>(model, *layout_, params_, w, i, choice);
+      return model.estimate(w);
+    });
   };
   // Below this the inverse would overflow: black.
   constexpr R least = std::numeric_limits<R>::min() / std::numeric_limits<R>::epsilon();
   if (node_count() == 1) {
-    see(0);
     probability[0] = Spectrum<R>::map([](R x) { return R(x > least); }, estimate(0));
     choice.any = probability[0][0] > 0;
     return;
   }
   Spectrum<R> sum;
   choice.frames.find(*layout_, params_, wo);
-  for (int i = 0; i < node_count(); ++i) see(i);
+  PerNode<Spectrum<R>> estimates;
+  for (int i = 0; i < node_count(); ++i) estimates.of[i] = estimate(i);
   if (!choice.material.is(*layout_, params_)) know_material(choice);
   see_coats(*layout_, params_, choice.frames, wo, choice.coats);
   if (layout_->transmits()) see_coated_glass(wo, choice);
   weigh_for_choice(*layout_, params_, choice.frames, wo, &choice.coats, choice.probability);
   for (int i = 0; i < node_count(); ++i) {
     const OverGlass<R>* glass = over_glass(i, choice);
-    probability[i] *= glass ? glass->o.all() * glass->colour : estimate(i);
+    probability[i] *= glass ? glass->o.all() * glass->colour : estimates.of[i];
     sum += probability[i];
   }
   for (int j = 0; j < kWavelengths; ++j) sum[j] = sum[j] > least ? 1 / sum[j] : R(0);
