@@ -407,6 +407,11 @@ template <class R>
 struct StretchedInterface {
   R wide, narrow, x, y, z;
 
+  /// Those `ax` and `ay` wide, along `w`.
+  static StretchedInterface of(R ax, R ay, Vec3<R> w) {
+    return ax < ay ? StretchedInterface{ay, ax, w.y, w.x, w.z}
+                   : StretchedInterface{ax, ay, w.x, w.y, w.z};
+  }
   R root() const { return std::sqrt(wide * narrow); }
   /// The width of round facets that are as wide along the direction; at most 1.
   R like() const {
@@ -514,10 +519,7 @@ struct InterfaceLoss {
     return ax == ay ? mean : mean * std::max(R(0.5), mean_ratio(alpha));  // in truth above 1
   }
 
-  StretchedInterface<R> stretched(Vec3<R> w) const {
-    return ax < ay ? StretchedInterface<R>{ay, ax, w.y, w.x, w.z}
-                   : StretchedInterface<R>{ax, ay, w.x, w.y, w.z};
-  }
+  StretchedInterface<R> stretched(Vec3<R> w) const { return StretchedInterface<R>::of(ax, ay, w); }
 
  private:
   /// Less is all but noise in float, and Beckmann's falls as a normal distribution above alpha.

@@ -5,8 +5,9 @@
 /// A film (materials/thin_film.h) over metal (`film_conductor`) or glass (`film_dielectric`), which
 /// both may be rough: facets are larger than the film is thick, and each has its colours. What
 /// light between facets of metal reflects is taken as for a bare one. Rough glass keeps its energy
-/// within 5e-4 under films of up to 1500 nm at 550 nm, 3e-3 at anisotropy 0.9, 5e-3 at 1, and about
-/// 1e-2 under thicker ones, 3e-2 at anisotropy 1 (materials/film_energy.h).
+/// within 1e-3 under films of up to 1500 nm at 550 nm and to anisotropy 0.9, but for 1.5e-3 in a
+/// few of 10^4 settings; within 5e-3 at 1; within 8e-3 under films of up to 5 um, and about 1e-2
+/// under thicker ones (materials/film_energy.h).
 
 #include <array>
 #include <complex>

@@ -38,10 +38,11 @@ extern const FilmTables kGgxFilm;
 namespace axes {
 inline constexpr int kFilmTerms = 12;
 inline constexpr int kFilmAlpha = 18, kFilmIndex = 16, kFilmDirection[] = {36, 64};
-inline constexpr int kFilmMeanAlpha = 12, kFilmMeanAspect = 6;
-inline constexpr BentGrid kFilmBent[] = {{8, 10, 16, 10}, {10, 14, 36, 11}};
+inline constexpr int kFilmMeanAlpha = 24, kFilmMeanAspect = 6;
+inline constexpr BentGrid kFilmBent[] = {{12, 10, 20, 11}, {12, 22, 40, 11}};
 
-/// Of indices from 1.0002 to 4, or their inverses.
+/// Of indices from 1.0002 to 4, or their inverses. Stretched facets have the axes of their bare
+/// losses (bent_index, bent_direction).
 template <class R>
 inline R film_index(R eta) {
   return (index(eta) - R(kLeastBentIndex)) / R(kMostBentIndex - kLeastBentIndex);
@@ -88,22 +89,24 @@ struct FilmedLoss {
     const R alpha = round ? loss.ax : f.like();
     const R place = round ? loss.same.direction(z, s) : interface_direction(z, s, alpha, loss.eta);
     const auto add = [&](R* to, int of_each, const float* table, const Stencil<R>& width,
-                         int indices, int directions) {
+                         const Stencil<R>& index, int indices, const Stencil<R>& direction,
+                         int directions) {
       const int n2 = of_each * kFilmTerms, n1 = n2 * coefficients(directions),
                 n0 = n1 * coefficients(indices);
-      add_terms(to, of_each * count, table, R(1), width, n0,
-                Stencil<R>::at(film_index(loss.eta), indices), n1,
-                Stencil<R>::at(place, directions), n2);
+      add_terms(to, of_each * count, table, R(1), width, n0, index, n1, direction, n2);
     };
-    add(sums, 1, tables.loss[falls], Stencil<R>::at(interface_alpha(alpha), kFilmAlpha), kFilmIndex,
-        kFilmDirection[falls]);
+    add(sums, 1, tables.loss[falls], Stencil<R>::at(interface_alpha(alpha), kFilmAlpha),
+        Stencil<R>::at(film_index(loss.eta), kFilmIndex), kFilmIndex,
+        Stencil<R>::at(place, kFilmDirection[falls]), kFilmDirection[falls]);
     if (round) return;
     const BentGrid& grid = kFilmBent[falls];
+    const R kink = R(loss.tables->kink), bent = bent_direction(place, z, s, alpha, loss.eta, kink);
     R shapes[ShapeBasis<R>::terms(kFilmBent[1].degree) * kFilmTerms] = {};
     const int terms = ShapeBasis<R>::terms(grid.degree);
     add(shapes, terms, tables.stretched[falls], Stencil<R>::at(bent_width(alpha), grid.width),
-        grid.index, grid.direction);
-    const ShapeBasis<R> basis(f.shape(R(kWidening)), grid.degree);
+        Stencil<R>::at(bent_index(loss.eta, kink), grid.index), grid.index,
+        Stencil<R>::at(bent, grid.direction), grid.direction);
+    const ShapeBasis<R> basis(f.shape(widening(loss.eta, alpha)), grid.degree);
     for (int k = 0; k < count; ++k) sums[k] += basis.sum(shapes + k * terms);
   }
 };

@@ -206,9 +206,7 @@ struct GlassWeights {
   /// \pre in_glass_tables(glass)
   GlassWeights(const GlassTables& tables, R ax, R ay, Vec3<R> w, R glass)
       : inside(w.z < 0), stretched(ax != ay) {
-    const R z = std::min(std::abs(w.z), R(1));
-    const StretchedInterface<R> f = ax < ay ? StretchedInterface<R>{ay, ax, w.y, w.x, z}
-                                            : StretchedInterface<R>{ax, ay, w.x, w.y, z};
+    const auto f = StretchedInterface<R>::of(ax, ay, {w.x, w.y, std::min(std::abs(w.z), R(1))});
     round = round_weights(tables, f, inside, glass);
     if (stretched) shape = shape_weights(tables, f, inside, glass);
   }

@@ -74,20 +74,6 @@ std::array<double, 2> bent_widths(double root, double place) {
   return {root * aspect, root / aspect};
 }
 
-/// The relative index of a place on the axis of stretched facets.
-double bent_index_at(double place, bool rising) {
-  using namespace axes;
-  place = std::pow(place, 1 / kBentIndexPower[!rising]);
-  return index_of(kLeastBentIndex + (kMostBentIndex - kLeastBentIndex) * place, rising);
-}
-
-/// That of tables of that `kink`.
-double kinked_index_at(double place, bool rising, double kink) {
-  if (rising || kink == 0) return bent_index_at(place, rising);
-  const auto at = [&](double x) { return axes::bent_index(bent_index_at(x, rising), kink); };
-  return bent_index_at(inverse(at, place), rising);
-}
-
 /// What stretched facets lose other than the round ones of the tables, over its scale.
 template <template <class> class Distribution>
 std::vector<float> stretched_difference(bool rising, const InterfaceTables& round) {
@@ -95,17 +81,13 @@ std::vector<float> stretched_difference(bool rising, const InterfaceTables& roun
   const auto [widths, indices, directions, degree] = round.bent[!rising];
   const ShapeFit shapes(degree);
   const int terms = shapes.terms();
-  Grid fitted({widths, indices, directions, terms}, [](const double*) { return 0.0; });
+  Grid fitted({widths, indices, directions, terms});
   parallel(widths * indices * directions, [&](int i) {
     const double x[] = {double(i / (indices * directions)) / (widths - 1),
                         double(i / directions % indices) / (indices - 1),
                         double(i % directions) / (directions - 1)};
-    const double like = std::pow(kLeastBentRoot + (1 - kLeastBentRoot) * x[0], 2);
-    const double eta = kinked_index_at(x[1], rising, round.kink);
-    const double c = cosine(std::min(x[2], 1 - kLeast), [&](double z, double s) {
-      return bent_direction(interface_direction(z, s, like, eta), z, s, like, eta,
-                            double(round.kink));
-    });
+    const double like = bent_width_at(x[0]), eta = bent_index_at(x[1], rising, round.kink);
+    const double c = bent_cosine_at(x[2], like, eta, round.kink);
     std::vector<double> values;
     for (int shape = 0; shape < shapes.count(); ++shape) {
       auto seen = shapes.facets_like(shape, like, widening(eta, like));

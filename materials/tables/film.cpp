@@ -61,8 +61,6 @@ double cosine_at(double place, double alpha, double eta) {
   return std::max(c, kLeast * alpha);
 }
 
-const auto kZero = [](const double*) { return 0.0; };
-
 std::vector<float> write(const TableFiles& to, const std::string& name, const Grid& grid) {
   const std::vector<double> spline = grid.spline(1);
   const std::vector<float> numbers(spline.begin(), spline.end());
@@ -74,7 +72,7 @@ std::vector<float> write(const TableFiles& to, const std::string& name, const Gr
 Grid round_quotients(bool rising) {
   using namespace axes;
   const int directions = kFilmDirection[!rising];
-  Grid grid({kFilmAlpha, kFilmIndex, directions, kFilmTerms}, kZero);
+  Grid grid({kFilmAlpha, kFilmIndex, directions, kFilmTerms});
   parallel(kFilmAlpha * kFilmIndex, [&](int i) {
     const double alpha = alpha_at(double(i / kFilmIndex) / (kFilmAlpha - 1));
     const double eta = index_at(double(i % kFilmIndex) / (kFilmIndex - 1), rising);
@@ -93,19 +91,19 @@ Grid stretched_quotients(bool rising, const FilmTables& round) {
   const auto [widths, indices, directions, degree] = kFilmBent[!rising];
   const ShapeFit shapes(degree);
   const int terms = shapes.terms();
-  Grid grid({widths, indices, directions, terms * kFilmTerms}, kZero);
+  Grid grid({widths, indices, directions, terms * kFilmTerms});
   parallel(widths * indices, [&](int i) {
-    const double place = double(i / indices) / (widths - 1);
-    const double like = std::pow(kLeastBentRoot + (1 - kLeastBentRoot) * place, 2);
-    const double eta = index_at(double(i % indices) / (indices - 1), rising);
+    const double like = bent_width_at(double(i / indices) / (widths - 1));
+    const double eta = bent_index_at(double(i % indices) / (indices - 1), rising, kGgxKink);
     for (int d = 0; d < directions; ++d) {
-      const double z = cosine_at(double(d) / (directions - 1), like, eta), s = std::sqrt(1 - z * z);
+      const double c = bent_cosine_at(double(d) / (directions - 1), like, eta, kGgxKink);
+      const double z = std::max(c, kLeast * like), s = std::sqrt(1 - z * z);
       double same[kFilmTerms] = {};
       FilmedLoss<double>::quotients(round, {kGgxInterface, like, like, eta}, {s, 0, z}, same,
                                     kFilmTerms);
       std::vector<double> values[kFilmTerms];
       for (int shape = 0; shape < shapes.count(); ++shape) {
-        const auto seen = shapes.facets_like(shape, like);
+        const auto seen = shapes.facets_like(shape, like, widening(eta, like));
         const Changes of = quotients({{seen.wide, seen.narrow}}, eta, {s * seen.x, s * seen.y, z});
         for (int k = 0; k < kFilmTerms; ++k) values[k].push_back(of.of[k] - same[k]);
       }
@@ -141,7 +139,7 @@ Changes mean_quotients(const FilmTables& tables, const Ggx<double>& facets, doub
 
 Grid means(bool rising, const FilmTables& tables) {
   using namespace axes;
-  Grid grid({kFilmMeanAlpha, kFilmMeanAspect, kFilmIndex, kFilmTerms}, kZero);
+  Grid grid({kFilmMeanAlpha, kFilmMeanAspect, kFilmIndex, kFilmTerms});
   parallel(kFilmMeanAlpha * kFilmMeanAspect * kFilmIndex, [&](int i) {
     const double alpha =
         alpha_at(double(i / (kFilmMeanAspect * kFilmIndex)) / (kFilmMeanAlpha - 1));

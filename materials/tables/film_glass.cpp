@@ -49,7 +49,7 @@ void put_weights(const double* moments, int count, double* to) {
 std::vector<float> side(bool inside) {
   using namespace axes;
   const int directions = kFilmGlassDirection[inside];
-  Grid grid({kFilmGlassAlpha, kFilmGlassIndex, directions, kPoints * kTerms}, zero);
+  Grid grid({kFilmGlassAlpha, kFilmGlassIndex, directions, kPoints * kTerms});
   parallel(kFilmGlassAlpha * kFilmGlassIndex, [&](int i) {
     const double alpha = alpha_of(i / kFilmGlassIndex), glass = index_of(i % kFilmGlassIndex);
     for (int d = 0; d < directions; ++d) {
@@ -87,7 +87,7 @@ Numbers<kPoints*(1 + kTerms)> losses(const Ggx<double>& facets, double glass) {
 
 std::vector<float> further() {
   using namespace axes;
-  Grid grid({kFilmGlassAlpha, kFilmGlassIndex, kPoints * (1 + kTerms)}, zero);
+  Grid grid({kFilmGlassAlpha, kFilmGlassIndex, kPoints * (1 + kTerms)});
   parallel(kFilmGlassAlpha * kFilmGlassIndex, [&](int i) {
     const double alpha = alpha_of(i / kFilmGlassIndex), glass = index_of(i % kFilmGlassIndex);
     put_weights(losses(Ggx<double>{{alpha, alpha}}, glass).of.data(), 1 + kTerms,

@@ -58,7 +58,7 @@ std::vector<float> bent_side(const GlassTables& round) {
   constexpr int points = kFewGlassPoints;
   const ShapeFit shapes(grid.degree);
   const int count = shapes.count(), terms = shapes.terms();
-  Grid bent({grid.width, grid.index, grid.direction, points * terms}, zero);
+  Grid bent({grid.width, grid.index, grid.direction, points * terms});
   parallel(grid.width * grid.index, [&](int i) {
     const double like = glass_alpha_at(double(i / grid.index) / (grid.width - 1));
     const double glass = glass_index_at(double(i % grid.index) / (grid.index - 1));
@@ -92,7 +92,7 @@ void write_side(const TableFiles& to, const std::string& name) {
   using namespace axes;
   constexpr int widths = kGlassAlpha, indices = kGlassIndex, directions = kGlassDirection[Inside];
   const std::string side = Inside ? "Inside" : "Outside";
-  Grid grid({widths, indices, directions, kGlassPoints}, zero);
+  Grid grid({widths, indices, directions, kGlassPoints});
   parallel(widths * indices, [&](int i) {
     const double alpha = glass_alpha_at(double(i / indices) / (widths - 1));
     const double glass = glass_index_at(double(i % indices) / (indices - 1));

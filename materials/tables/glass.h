@@ -69,9 +69,6 @@ Moments<Points> further_outside(const Facets& facets, double glass) {
   return sum / sum.of[0];  // t_0 is 1
 }
 
-/// Of grids that are filled in later.
-inline double zero(const double*) { return 0; }
-
 /// Coefficients along every axis but the last.
 inline std::vector<float> spline_of(const Grid& grid) {
   const std::vector<double> of = grid.spline(1);

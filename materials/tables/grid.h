@@ -71,13 +71,15 @@ struct Grid {
   std::vector<int> nodes;
   std::vector<double> values;
 
-  /// `value(x)`: x[k] in [0, 1] along axis k.
-  Grid(std::vector<int> n, const std::function<double(const double*)>& value)
-      : nodes(std::move(n)) {
+  /// Of zeros, to be filled in.
+  explicit Grid(std::vector<int> n) : nodes(std::move(n)) {
     int total = 1;
     for (int k : nodes) total *= k;
     values.resize(total);
-    parallel(total, [&](int i) {
+  }
+  /// `value(x)`: x[k] in [0, 1] along axis k.
+  Grid(std::vector<int> n, const std::function<double(const double*)>& value) : Grid(std::move(n)) {
+    parallel(int(values.size()), [&](int i) {
       double x[8];
       int rest = i;
       for (int k = int(nodes.size()) - 1; k >= 0; --k) {

@@ -46,6 +46,29 @@ inline double index_of(double x, bool rising = true) {
   return rising ? (1 + part) / (1 - part) : (1 - part) / (1 + part);
 }
 
+/// The relative index of a place on the axis of stretched facets.
+inline double bent_index_at(double place, bool rising) {
+  using namespace axes;
+  place = std::pow(place, 1 / kBentIndexPower[!rising]);
+  return index_of(kLeastBentIndex + (kMostBentIndex - kLeastBentIndex) * place, rising);
+}
+/// That of tables of that `kink`.
+inline double bent_index_at(double place, bool rising, double kink) {
+  if (rising || kink == 0) return bent_index_at(place, rising);
+  const auto at = [&](double x) { return axes::bent_index(bent_index_at(x, rising), kink); };
+  return bent_index_at(inverse(at, place), rising);
+}
+/// The |cosine| of a place on their axis of directions.
+inline double bent_cosine_at(double place, double like, double eta, double kink) {
+  return cosine(std::min(place, 1 - kLeast), [&](double z, double s) {
+    return axes::bent_direction(axes::interface_direction(z, s, like, eta), z, s, like, eta, kink);
+  });
+}
+/// And the width of one on theirs.
+inline double bent_width_at(double place) {
+  return std::pow(axes::kLeastBentRoot + (1 - axes::kLeastBentRoot) * place, 2);
+}
+
 /// Where the losses of an interface have their ridge: the cosine of the critical angle, or 0.
 inline double ridge_of(double eta) { return std::sqrt(std::max(0.0, (1 - eta) * (1 + eta))); }
 

@@ -69,7 +69,7 @@ std::array<double, kGlassPoints> weights(double n, double momentum) {
 
 std::vector<float> table() {
   using namespace axes;
-  Grid grid({kPhongExponent, kPhongMomentum, kGlassPoints}, zero);
+  Grid grid({kPhongExponent, kPhongMomentum, kGlassPoints});
   parallel(kPhongExponent, [&](int e) {
     constexpr double most = 2 * kMaxExponent;
     const double n = most * inverse([](double x) { return phong_exponent(most * x); },

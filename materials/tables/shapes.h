@@ -60,8 +60,7 @@ class ShapeFit {
   }
 
   /// The same, but along the tangent as wide as round ones of the width `like`.
-  StretchedInterface<double> facets_like(int i, double like,
-                                         double widening = axes::kWidening) const {
+  StretchedInterface<double> facets_like(int i, double like, double widening) const {
     StretchedInterface<double> seen = facets(i, widening);
     const double along = std::hypot(seen.wide * seen.x, seen.narrow * seen.y);
     const double root = like / (along + like * (1 - along));  // the inverse of like()

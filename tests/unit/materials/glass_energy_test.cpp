@@ -153,8 +153,11 @@ TEST_CASE("rough glass under a film keeps its energy, from both sides" * kSum) {
   struct Row {
     double anisotropy, most, bound;
   };
-  for (const Row& row :
-       {Row{0, 1500e-9, 5e-4}, {0, 5e-6, 1e-2}, {0.6, 1500e-9, 1e-3}, {-0.9, 1500e-9, 3e-3}}) {
+  for (const Row& row : {Row{0, 1500e-9, 5e-4},
+                         {0, 5e-6, 1e-2},
+                         {0.6, 1500e-9, 1e-3},
+                         {-0.9, 1500e-9, 1e-3},
+                         {1, 1500e-9, 3e-3}}) {
     Worst worst;
     for (int k = 1; k <= swept(300); ++k) {
       const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
