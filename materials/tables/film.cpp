@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/film_energy.h and writes them as C++ to the named file: run by
-// the build, in about half a minute of one core.
+// the build, in about a minute of one core.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -10,7 +10,7 @@
 
 #include "base/quadrature.h"
 #include "materials/facets.h"
-#include "materials/film_energy.h"
+#include "materials/tables/films.h"
 #include "materials/tables/grid.h"
 #include "materials/tables/losses.h"
 #include "materials/tables/shapes.h"
@@ -32,12 +32,11 @@ double index_at(double place, bool rising) {
 /// D_k along `w`, and what it is measured in, the last.
 auto changes(const Ggx<double>& facets, double eta, Vec3d w) {
   const int points = facets.ax == facets.ay ? 24 : 16;  // of what is added to the others, fewer
-  constexpr int terms = axes::kFilmTerms;
   return interface_mean(facets, eta, w, points, [eta](const Way& up, const Way& down) {
-    Numbers<terms + 1> to;
-    const auto t = chebyshev_terms<terms>(eta < 1 ? down.facet : up.facet);
-    for (int k = 0; k < terms; ++k) to.of[k] = t[k] * down.share * (up.taken - down.taken);
-    to.of[terms] = up.taken + up.share * up.taken + down.share * down.taken;
+    Numbers<axes::kFilmTerms + 1> to;
+    const Changes each = changes_at(eta, up, down);
+    std::copy(each.of.begin(), each.of.end(), to.of.begin());
+    to.of.back() = up.taken + up.share * up.taken + down.share * down.taken;
     return to;
   });
 }

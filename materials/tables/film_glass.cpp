@@ -9,6 +9,7 @@
 
 #include "materials/facets.h"
 #include "materials/film_coat.h"
+#include "materials/tables/films.h"
 #include "materials/tables/glass.h"
 
 namespace mms::materials::tables {
@@ -67,19 +68,15 @@ Numbers<kPoints*(1 + kTerms)> losses(const Ggx<double>& facets, double glass) {
   const InterfaceLoss<double> loss{facets.interface(), facets.ax, facets.ay, glass};
   return height_mean(
       [&](double z, double s) {
-        auto along =
-            interface_mean(facets, glass, {s, 0, z}, 24, [](const Way& up, const Way& down) {
-              Numbers<1 + kTerms> to;
-              const auto film = chebyshev_terms<kTerms>(up.facet);
-              for (int k = 0; k < kTerms; ++k)
-                to.of[1 + k] = film[k] * down.share * (up.taken - down.taken);
-              return to;
-            });
-        along.of[0] = loss.at({s, 0, z});
+        const auto each = interface_mean(
+            facets, glass, {s, 0, z}, 24,
+            [glass](const Way& up, const Way& down) { return changes_at(glass, up, down); });
+        const double l = loss.at({s, 0, z});
         const auto at = chebyshev_terms<kPoints>(z);
         Numbers<kPoints*(1 + kTerms)> to;
         for (int k = 0; k <= kTerms; ++k)
-          for (int m = 0; m < kPoints; ++m) to.of[k * kPoints + m] = along.of[k] * at[m];
+          for (int m = 0; m < kPoints; ++m)
+            to.of[k * kPoints + m] = (k == 0 ? l : each.of[k - 1]) * at[m];
         return to;
       },
       facets.ax * facets.ay, 0, 8);
