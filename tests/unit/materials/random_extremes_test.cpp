@@ -200,6 +200,7 @@ TEST_CASE("random calls of every model are finite and non-negative") {
     stats::Random random(std::uint64_t(k + 1));
     Counts counts;
     std::string first;
+    Bsdf<float>::Choice choice;  // of one material after the other, as renders have it
     while (counts.calls < calls) {
       const Material m = any_material(lobe, random);
       const materials::Layout layout = m.layout();
@@ -208,12 +209,13 @@ TEST_CASE("random calls of every model are finite and non-negative") {
       for (int i = 0; i < 50; ++i) {
         const Vec3<float> wo = any_direction(random, {0, 0, 1}), wi = any_direction(random, wo);
         const Mode mode = i % 2 ? Mode::Radiance : Mode::Importance;
-        const auto l = bsdf.evaluate(wo, wi, mode);
+        bsdf.choose(wo, choice);
+        const auto l = bsdf.evaluate(wo, wi, mode, choice);
         counts.add(l.f);
         counts.add(l.pdf);
         const float u = random.next_float(), u1 = random.next_float(), u2 = random.next_float();
         counts.calls += 2;
-        counts.add_sample(bsdf.sample(wo, u, u1, u2, mode));
+        counts.add_sample(bsdf.sample(wo, u, u1, u2, mode, choice));
         if (!counts.good() && first.empty()) {
           for (float x : p) first += std::to_string(x) + " ";
           first += "; wo " + std::to_string(wo.x) + " " + std::to_string(wo.y) + " " +
