@@ -117,7 +117,7 @@ struct FilmOrder {
   int terms, points;
   double fringes;
 };
-inline constexpr FilmOrder kThinFilm{8, 10, 1}, kThickFilm{axes::kFilmTerms, 14, 3};
+inline constexpr FilmOrder kThinFilm{8, 10, 1.5}, kThickFilm{axes::kFilmTerms, 14, 3};
 
 /// Films between two indices at Chebyshev's points of the cosine at a facet.
 template <class R, const FilmOrder& kOrder>
