@@ -239,8 +239,7 @@ struct CoatNumbers {
   CoatNumbers() = default;
   CoatNumbers(const R* ior, const Films<R>& above, const Spectrum<R>& held, const Spectrum<R>& even,
               const Spectrum<R>& least_cosine)
-      : films(above), least(least_cosine) {
-    FaceMeans<R> means;
+      : films(above), least(least_cosine), held_(held), even_(even) {
     for (int j = 0; j < kWavelengths; ++j) {
       eta[j] = relative_eta(ior[j], Vec3<R>{0, 0, 1});
       // Under a film an index of 1 is a coat like others; on one below there is no film.
@@ -251,23 +250,11 @@ struct CoatNumbers {
         eta[j] = 1 / eta[j];
         falls_.set(j);
       }
-      const bool repeated = j > 0 && eta[j] == eta[j - 1] && films[j] == films[j - 1];
-      mean[j] = repeated ? mean[j - 1] : films[j].there() && even[j] == 0 ? R(0) : means(face(j));
-      const bool same =
-          repeated && held[j] == held[j - 1] && even[j] == even[j - 1] && least[j] == least[j - 1];
-      shape[j] = same ? shape[j - 1] : of(j, {held[j], even[j]});
     }
-    find_repeated();
+    find_shapes();
   }
 
   Face<R> face(int j) const { return {eta[j], films[j]}; }
-  /// The index of a bare interface that reflects as much along the normal.
-  R bare(int j) const {
-    if (!films[j].there()) return eta[j];
-    constexpr R most = R(0.9);
-    const R root = std::sqrt(std::min(face(j).reflected(R(1)), most));
-    return std::max((1 + root) / (1 - root), 1 + kNextToOne);
-  }
   /// Whether a film is part of it at some wavelength.
   bool filmed() const {
     return std::any_of(films.begin(), films.end(), [](const Film<R>& f) { return f.there(); });
@@ -289,9 +276,24 @@ struct CoatNumbers {
   /// The coat as if it were of that lobe alone.
   CoatNumbers as(const Broadness<R>& lobe) const {
     CoatNumbers to = *this;
+    to.held_ = Spectrum<R>(lobe.held), to.even_ = Spectrum<R>(lobe.even);
     for (int j = 0; j < kWavelengths; ++j)
       to.shape[j] = repeated(j) ? to.shape[j - 1] : of(j, lobe);
     to.find_repeated();
+    return to;
+  }
+  /// Bare interfaces for those under films, that reflect as much along the normal as films of all
+  /// thicknesses do.
+  CoatNumbers without_films() const {
+    CoatNumbers to = *this;
+    to.films = {};
+    for (int j = 0; j < kWavelengths; ++j) {
+      if (!films[j].there()) continue;
+      FilmAlong<R> normal({R(1)}, films[j].ior, eta[j]);
+      const R root = std::sqrt(normal.split(films[j].phases, R(0)).reflected[0]);
+      to.eta[j] = std::max((1 + root) / (1 - root), 1 + kNextToOne);
+    }
+    to.find_shapes();
     return to;
   }
   FresnelSplit<R> split(int j, CoatDirection<R>& along) const {
@@ -314,9 +316,22 @@ struct CoatNumbers {
   static constexpr R kNextToOne = R(1e-4);  ///< how near films let an index be
 
   std::bitset<kWavelengths> repeated_, falls_;
+  Spectrum<R> held_{}, even_{};
 
   /// The square of the sine of light along the surface, once it has passed.
   R bent_sine2(int j) const { return (1 - least[j]) * (1 + least[j]) / (eta[j] * eta[j]); }
+
+  void find_shapes() {
+    FaceMeans<R> means;
+    for (int j = 0; j < kWavelengths; ++j) {
+      const bool repeated = j > 0 && eta[j] == eta[j - 1] && films[j] == films[j - 1];
+      mean[j] = repeated ? mean[j - 1] : films[j].there() && even_[j] == 0 ? R(0) : means(face(j));
+      const bool same = repeated && held_[j] == held_[j - 1] && even_[j] == even_[j - 1] &&
+                        least[j] == least[j - 1];
+      shape[j] = same ? shape[j - 1] : of(j, {held_[j], even_[j]});
+    }
+    find_repeated();
+  }
 
   void find_repeated() {
     for (int j = 1; j < kWavelengths; ++j)

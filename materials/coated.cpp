@@ -11,6 +11,7 @@ const CoatedTables kGgxCoated{
     {kGgxStretchedUnderTable0, kGgxStretchedUnderTable1, kGgxStretchedUnderTable2,
      kGgxStretchedUnderTable3},
     kGgxStretchedCoatTable,
+    kGgxStretchedChangeTable,
     kGgxSpreadTable};
 const CoatedTables kBeckmannCoated{
     {kBeckmannUnderTable0, kBeckmannUnderTable1, kBeckmannUnderTable2, kBeckmannUnderTable3,
@@ -19,17 +20,20 @@ const CoatedTables kBeckmannCoated{
     {kBeckmannStretchedUnderTable0, kBeckmannStretchedUnderTable1, kBeckmannStretchedUnderTable2,
      kBeckmannStretchedUnderTable3},
     kBeckmannStretchedCoatTable,
+    kBeckmannStretchedChangeTable,
     kBeckmannSpreadTable};
 const CoatedTables kGlossyCoated{{kGlossyUnderTable0, kGlossyUnderTable1, kGlossyUnderTable2,
                                   kGlossyUnderTable3, kGlossyUnderTable4},
                                  kGlossyCoatTable,
                                  {},
                                  nullptr,
+                                 nullptr,
                                  kGlossySpreadTable};
 const CoatedTables kMatteCoated{
     {kMatteUnderTable0, kMatteUnderTable1, kMatteUnderTable2, kMatteUnderTable3, kMatteUnderTable4},
     nullptr,
     {},
+    nullptr,
     nullptr,
     kMatteSpreadTable};
 

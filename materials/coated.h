@@ -20,7 +20,12 @@
 /// for the square of how much they vary. What stretched facets have above round ones as wide along
 /// the direction is in further tables, as polynomials over the shape that they have along it
 /// (materials/tables/stretched_coats.cpp). What that is off by says materials/combine.h. Below
-/// several coats G is solved for (materials/under_coats.h).
+/// several coats and films G is solved for (materials/under_coats.h).
+///
+/// As G - g = (K - 1) g and G + g = (K + 1) g, of first order in what A varies by G^2 - A is
+/// (K - 1) (K + 1)^-1 A: linear. So the last table holds how much A at each of a few cosines counts
+/// along a direction, of stretched facets less of round ones of the same mean width: by this the
+/// former have more than the latter of what a film changes.
 
 #include <algorithm>
 #include <array>
@@ -42,7 +47,7 @@ inline constexpr int kCoatedMatte = 5, kSpread = 32;
 inline constexpr double kHeld[] = {0, 0.2, 0.5, 0.8, 1}, kStretchedHeld[] = {0, 0.3, 0.7, 1};
 /// Of stretched facets; the axis of the width is that of an interface.
 inline constexpr int kStretchedCoatAlpha = 22, kStretchedCoatIndex = 23,
-                     kStretchedCoatDirection = 28, kStretchedCoatDegree = 16;
+                     kStretchedCoatDirection = 28, kStretchedCoatDegree = 16, kChangePoints = 10;
 inline constexpr double kLeastCoatIndex = 0.1, kMostCoatIndex = 0.9844914;  ///< of 1.0002 and 32
 
 template <class R>
@@ -73,6 +78,8 @@ struct CoatedTables {
   /// [root of both alphas][index][direction][term of ShapeBasis].
   const float* under_stretched[std::size(axes::kStretchedHeld)];
   const float* coat_stretched;
+  /// [root of both alphas][direction][point][term of ShapeBasis], points those of Chebyshev.
+  const float* change_stretched;
   /// [width][column][direction o]: int K l |cos i| di for each of axes::kSpread polynomials l over
   /// axes::spread_direction, which are 1 at one of the directions and 0 at the others. Then the
   /// cosines of these directions.
@@ -142,6 +149,19 @@ struct FacetsAlong {
     // Above the axis few directions are let through.
     const auto mean_through = [](R index) { return 1 - fresnel_dielectric_diffuse(index); };
     return eta > 32 ? sum * (mean_through(eta) / mean_through(R(32))) : sum;
+  }
+  /// What G^2 changes by where A changes by 1 at each point.
+  std::array<R, axes::kChangePoints> changes(const float* table, R place) const {
+    using namespace axes;
+    using Basis = ShapeBasis<R>;
+    constexpr int terms = Basis::terms(kStretchedCoatDegree), numbers = terms * kChangePoints;
+    R sums[numbers] = {};
+    add_terms(sums, numbers, table, R(1), root, numbers * coefficients(kStretchedCoatDirection),
+              Stencil<R>::at(place, kStretchedCoatDirection), numbers);
+    const Basis basis(shape, kStretchedCoatDegree);
+    std::array<R, kChangePoints> of_points;
+    for (int i = 0; i < kChangePoints; ++i) of_points[i] = basis.sum(sums + i * terms);
+    return of_points;
   }
 };
 
@@ -219,6 +239,11 @@ struct CoatedLobe {
                std::min((eta - 1) / (least * (eta + 1)), R(1));
     }
     return std::max(through + varies * above, through / 2);
+  }
+  /// By how much G^2 of stretched facets is more than of round ones of the same mean width, of
+  /// first order, for A at the points of axes::kChangePoints.
+  std::array<R, axes::kChangePoints> changes() const {
+    return along.changes(tables->change_stretched, place);
   }
   /// The same as a part of a coat, for E = `reflected`.
   R as_coat(R eta, R reflected) const { return times_exp(reflected, log_quotient(eta)); }

@@ -6,7 +6,9 @@
 /// materials/coated.h where what is to be reflected is a product, the T of all coats above, times E
 /// of the coat that the lobe is a part of, if it is. That is no table's, and so is solved for, once
 /// for all directions: at few of them, with K as a matrix and polynomials between. White round
-/// facets, `glossy` and `rough_matte` keep their energy within 1e-4, for indices from 1.02 to 4.
+/// facets, `glossy` and `rough_matte` keep their energy within 1e-4, for indices from 1.02 to 4. Of
+/// stretched facets that is what round ones of the same mean width have; they have other than these
+/// what tables say of bare coats, and of first order what films change (materials/combine.h).
 
 #include <algorithm>
 #include <array>
@@ -17,6 +19,7 @@
 
 #include "base/spectrum.h"
 #include "base/warp.h"
+#include "materials/chebyshev.h"
 #include "materials/coat.h"
 #include "materials/coated.h"
 #include "materials/lobe.h"
@@ -62,10 +65,26 @@ struct Coats {
   static constexpr int kMost = kMaxNodes / 2;  ///< each is a node, with one for its own lobe
 
   std::optional<CoatNumbers<R>> part;  ///< the coat that the lobe is a part of, as that lobe alone
-  std::array<const CoatNumbers<R>*, kMost> of;
+  std::array<const CoatNumbers<R>*, kMost> of, bare;  ///< `bare` without their films
   int count = 0;
 
-  void add(const CoatNumbers<R>& coat) { of[count++] = &coat; }
+  void add(const CoatNumbers<R>& coat, const CoatNumbers<R>& without_films) {
+    of[count] = &coat;
+    bare[count++] = &without_films;
+  }
+  /// The same without their films.
+  Coats without_films() const {
+    Coats to = *this;
+    to.of = bare;
+    if (part) to.part = part->without_films();
+    return to;
+  }
+  /// Whether a film is part of one at wavelength j.
+  bool filmed(int j) const {
+    const auto is = [j](const CoatNumbers<R>& coat) { return coat.films[j].there(); };
+    return (part && is(*part)) ||
+           std::any_of(of.begin(), of.begin() + count, [&](const auto* coat) { return is(*coat); });
+  }
   /// Whether wavelength j is as the one before.
   bool repeated(int j) const {
     return (!part || part->repeated(j)) &&
@@ -89,6 +108,7 @@ struct Coats {
     return t;
   }
   R reflected(int j, R z) const { return part ? part->split(j, z).reflected : R(1); }
+  R share(int j, R z) const { return through(j, z) * reflected(j, z); }
 };
 
 /// A copy, by which a solution is found again; of more than a few coats there is none.
@@ -196,7 +216,14 @@ inline typename SpreadMatrix<R>::Values scaled(const SpreadMatrix<R>& matrix,
   return mean;
 }
 
-/// G of a lobe that is not stretched.
+/// What G^2 under films is at least of what is to be reflected: more than rounding and polynomials
+/// leave. Where a film keeps light from being reflected along all but grazing directions, it is so
+/// little along these.
+template <class R>
+inline constexpr R kLeastSquared = R(1e-3);
+
+/// G of a lobe, as of round ones of the same mean width; and what films change of what the lobe is
+/// to reflect, where it is stretched.
 template <class R>
 class UnderCoats {
   using Values = typename SpreadMatrix<R>::Values;
@@ -204,11 +231,14 @@ class UnderCoats {
  public:
   /// For the wavelengths at which the nearest index is above 1.
   void solve(const CoatedLobe<R>& lobe, const Coats<R>& coats) {
-    lobe_ = lobe;
+    lobe_ = lobe.round();
+    stretched_ = lobe.stretched();
     kept_.keep(coats);
     reflects_ = coats.part.has_value();
     count_ = 0;
-    const SpreadMatrix<R> matrix(lobe);
+    filmed_.reset();
+    const SpreadMatrix<R> matrix(lobe_);
+    std::optional<Coats<R>> bare;
     for (int j = 0; j < kWavelengths; ++j) {
       repeated_[j] = coats.repeated(j);
       at_[j] = std::max(count_ - 1, 0);
@@ -220,31 +250,46 @@ class UnderCoats {
         through[k] = coats.through(j, z);
         reflected[k] = through[k] * coats.reflected(j, z);
       }
+      filmed_[at_[j]] = coats.filmed(j);
+      if (stretched_ && coats.filmed(j)) {
+        if (!bare) bare = coats.without_films();
+        for (int i = 0; i < axes::kChangePoints; ++i) {
+          const R z = R(chebyshev_points<axes::kChangePoints>()[i]);
+          changed_[at_[j]][i] = coats.share(j, z) - bare->share(j, z);
+        }
+      }
       const Values below = scaled(matrix, through, 4);
       Values& above = above_[at_[j]];
       for (int k = 0; k < axes::kSpread; ++k) above[k] = below[k] * below[k] - through[k];
       if (!reflects_) continue;
       const Values part = scaled(matrix, reflected, 12);
       Values& rest = rest_[at_[j]];
-      filmed_[at_[j]] = coats.part->face(j).film.there();
+      filmed_part_[at_[j]] = coats.part->face(j).film.there();
       for (int k = 0; k < axes::kSpread; ++k)
-        rest[k] = filmed_[at_[j]] ? part[k] * part[k] - reflected[k]
-                                  : 2 * std::log(part[k] / below[k]) -
-                                        std::log(coats.reflected(j, matrix.cosine(k)));
+        rest[k] = filmed_part_[at_[j]] ? part[k] * part[k] - reflected[k]
+                                       : 2 * std::log(part[k] / below[k]) -
+                                             std::log(coats.reflected(j, matrix.cosine(k)));
     }
   }
   bool solves(const CoatedLobe<R>& lobe, const Coats<R>& coats) const {
-    return lobe.is_like(lobe_) && kept_.are(coats);
+    return lobe.stretched() == stretched_ && lobe.round().is_like(lobe_) && kept_.are(coats);
   }
 
-  /// What `squared` takes of a direction of |cosine| `z`.
+  /// What `squared` takes of the direction of a lobe.
   struct Along {
-    std::array<R, kWavelengths> above{}, rest{};
+    std::array<R, kWavelengths> above{}, rest{}, changed{};
   };
-  Along along(R z) const {
+  Along along(const CoatedLobe<R>& lobe) const {
     const Values weights =
-        SpreadPoints<R>::get().weights_at(axes::spread_direction(z, lobe_.cosines));
+        SpreadPoints<R>::get().weights_at(axes::spread_direction(lobe.z, lobe_.cosines));
     Along along;
+    if (stretched_ && filmed_.any()) {
+      const auto changes = lobe.changes();
+      for (int n = 0; n < count_; ++n)
+        if (filmed_[n])
+          for (int i = 0; i < axes::kChangePoints; ++i)
+            along.changed[n] += changes[i] * changed_[n][i];
+    }
     for (int n = 0; n < count_; ++n)
       for (int k = 0; k < axes::kSpread; ++k) {
         along.above[n] += weights[k] * above_[n][k];
@@ -255,19 +300,24 @@ class UnderCoats {
 
   /// Whether wavelength j is as the one before.
   bool repeated(int j) const { return repeated_[j]; }
+  /// Whether one of the coats has a film at wavelength j.
+  bool filmed(int j) const { return filmed_[at_[j]]; }
+  /// How much more G^2 of wavelength j is by films than of round lobes.
+  R changed(int j, const Along& along) const { return along.changed[at_[j]]; }
 
-  /// G^2 of wavelength j along the direction, for T = `through` and, of a part of a coat, E =
-  /// `reflected`.
+  /// G^2 of wavelength j of round lobes along the direction, for T = `through` and, of a part of a
+  /// coat, E = `reflected`.
   R squared(int j, const Along& along, R through, R reflected = 1) const {
     const R below = std::max(through + along.above[at_[j]], through / 2);
     if (!reflects_) return below;
     const R rest = along.rest[at_[j]], all = through * reflected;
-    if (filmed_[at_[j]]) return std::max(all + rest, all / 4);
+    if (filmed_part_[at_[j]]) return std::max(all + rest, all * kLeastSquared<R>);
     return below * reflected * std::exp(limited(rest, R(-20), R(40)));
   }
 
  private:
-  CoatedLobe<R> lobe_;
+  CoatedLobe<R> lobe_;  ///< as a round one
+  bool stretched_;
   KeptCoats<R> kept_;
   bool reflects_;                       ///< the lobe is a part of a coat
   std::bitset<kWavelengths> repeated_;  ///< wavelengths that are as the ones before
@@ -276,7 +326,10 @@ class UnderCoats {
   /// Of a part of a coat: ln of G^2 / E over that without E, as E may be next to nothing along most
   /// directions; under a film, where it is so along few, G^2 - T E.
   Values rest_[kWavelengths];
-  std::bitset<kWavelengths> filmed_;    ///< solutions of which the latter is true
+  std::bitset<kWavelengths> filmed_part_;  ///< solutions of which the latter is true
+  std::bitset<kWavelengths> filmed_;       ///< those of coats of which one has a film
+  /// What is to be reflected less what bare coats leave, at the points, where that is so.
+  std::array<R, axes::kChangePoints> changed_[kWavelengths];
   std::array<int, kWavelengths> at_{};  ///< the solution of a wavelength
 };
 

@@ -112,6 +112,7 @@ void write_facets(const TableFiles& to, const std::string& name, const std::vect
   for (std::size_t k = 0; k < under.size(); ++k) round.under[k] = under[k].data();
   const StretchedTables stretched = stretched_coats<Distribution>(round);
   write_numbers(to, name + "StretchedCoatTable", stretched.coat);
+  write_numbers(to, name + "StretchedChangeTable", stretched.change);
   for (std::size_t k = 0; k < stretched.under.size(); ++k)
     write_numbers(to, name + "StretchedUnderTable" + std::to_string(k), stretched.under[k]);
 }

@@ -104,6 +104,20 @@ Values scaled(const Lobe& lobe, const Values& share) {
   return mean;
 }
 
+/// (K - 1) (K + 1)^-1 A: what G^2 - A is of first order. The error's eigenvalues fall as above.
+template <class Lobe>
+Values first_order(const Lobe& lobe, const Values& share) {
+  Values half(share.size());  // (K + 1)^-1 A
+  for (int n = 0; n < 16; ++n) {
+    const Values mean = lobe.mean(half);
+    for (std::size_t o = 0; o < half.size(); ++o)
+      half[o] += kScalingPowers<double>[n % 2] * (share[o] - half[o] - mean[o]);
+  }
+  Values above = share;
+  for (std::size_t o = 0; o < above.size(); ++o) above[o] -= 2 * half[o];
+  return above;
+}
+
 /// What CoatedTables hold of that, below a coat and as one.
 template <class Lobe>
 Values scaled_below(const Lobe& lobe, const Values& through) {
@@ -140,6 +154,7 @@ struct CoatShares {
 struct StretchedTables {
   std::vector<float> coat;                ///< CoatedTables::coat_stretched
   std::vector<std::vector<float>> under;  ///< CoatedTables::under_stretched
+  std::vector<float> change;              ///< CoatedTables::change_stretched
 };
 /// From the tables of round ones.
 template <template <class> class Distribution>

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "materials/chebyshev.h"
 #include "materials/fresnel.h"
 #include "materials/tables/coats.h"
 #include "materials/tables/grid.h"
@@ -159,12 +160,32 @@ Values below_coat(const Lobe& lobe, double eta, double held) {
       CoatShares(kNodes, [&](int o) { return lobe.directions().at(o).z; }, eta, {held, 0}).through);
 }
 
-/// Of stretched facets less of round ones, for each index and direction at all shapes.
+/// What G^2 - A is of first order, where A is 1 at one of the points of axes::kChangePoints and 0
+/// at the others.
+template <class Lobe>
+std::vector<Values> changes(const Lobe& lobe) {
+  constexpr int kPoints = axes::kChangePoints;
+  std::vector<Values> of_points;
+  for (const double point : chebyshev_points<kPoints>()) {
+    const auto here = chebyshev_terms<kPoints>(point);
+    Values share(kNodes);
+    for (int o = 0; o < kNodes; ++o) {
+      const auto there = chebyshev_terms<kPoints>(lobe.directions().at(o).z);
+      share[o] =
+          (2 * std::inner_product(here.begin(), here.end(), there.begin(), 0.0) - 1) / kPoints;
+    }
+    of_points.push_back(first_order(lobe, share));
+  }
+  return of_points;
+}
+
+/// Of stretched facets less of round ones, for each index or point, and direction, at all shapes.
 struct Differences {
-  std::vector<Values> coat, under[kUnder];
+  std::vector<Values> coat, under[kUnder], change;
 
   explicit Differences(int shapes)
-      : coat(axes::kStretchedCoatIndex * axes::kStretchedCoatDirection, Values(shapes)) {
+      : coat(axes::kStretchedCoatIndex * axes::kStretchedCoatDirection, Values(shapes)),
+        change(axes::kStretchedCoatDirection * axes::kChangePoints, Values(shapes)) {
     std::fill_n(under, kUnder, coat);
   }
 };
@@ -173,27 +194,40 @@ template <template <class> class Distribution>
 Differences differences(const ShapeFit& shapes, double root, const CoatedTables& round) {
   using namespace axes;
   Differences all(shapes.count());
+  const Lobe<Distribution<double>> round_lobe(root, root);
+  const std::vector<Values> round_changes = changes(round_lobe);
   for (int first = 0, end = 0; first < shapes.count(); first = end) {
     // All shapes of one ring are the same facets, along other directions.
     const double aspect = shapes.facets(first).wide, wide = root * aspect, narrow = root / aspect;
     while (end < shapes.count() && std::abs(shapes.facets(end).wide - aspect) < 1e-6) ++end;
     const Lobe<Distribution<double>> lobe(wide, narrow);
-    // `stretched` is of the index `eta`, `like(width, place)` what tables of round facets hold.
-    const auto fill = [&](std::vector<Values>& to, int n, const Values& stretched,
-                          const auto& like) {
+    // Calls visit(d, i, w) for all directions.
+    const auto for_each_direction = [&](const auto& visit) {
       for (int d = 0; d < kStretchedCoatDirection; ++d) {
         const double z = cosine_at(std::max(double(d) / (kStretchedCoatDirection - 1), 1e-3)),
                      s = std::sqrt((1 - z) * (1 + z));
         for (int i = first; i < end; ++i) {
           const auto seen = shapes.facets(i);
-          const Vec3d w{s * seen.x, s * seen.y, z};
-          const auto width =
-              CoatedLobe<double>::facet_width(FacetsAlong<double>(wide, narrow, w).like);
-          to[n * kStretchedCoatDirection + d][i] =
-              lobe.directions().value(stretched, w) - like(width, coat_direction(z));
+          visit(d, i, Vec3d{s * seen.x, s * seen.y, z});
         }
       }
     };
+    // `stretched` is of the index `eta`, `like(width, place)` what tables of round facets hold.
+    const auto fill = [&](std::vector<Values>& to, int n, const Values& stretched,
+                          const auto& like) {
+      for_each_direction([&](int d, int i, Vec3d w) {
+        const auto width =
+            CoatedLobe<double>::facet_width(FacetsAlong<double>(wide, narrow, w).like);
+        to[n * kStretchedCoatDirection + d][i] =
+            lobe.directions().value(stretched, w) - like(width, coat_direction(w.z));
+      });
+    };
+    const std::vector<Values> stretched_changes = changes(lobe);
+    for (int k = 0; k < kChangePoints; ++k)
+      for_each_direction([&](int d, int i, Vec3d w) {
+        all.change[d * kChangePoints + k][i] = lobe.directions().value(stretched_changes[k], w) -
+                                               round_lobe.directions().value(round_changes[k], w);
+      });
     for (int n = 0; n < kStretchedCoatIndex; ++n) {
       const double eta = index_at(double(n) / (kStretchedCoatIndex - 1));
       fill(all.coat, n, as_coat(lobe, eta, Broadness<double>::facets(root)),
@@ -224,6 +258,8 @@ StretchedTables stretched_coats(const CoatedTables& round) {
   const Grid nothing({kStretchedCoatAlpha, kStretchedCoatIndex, kStretchedCoatDirection, terms},
                      [](const double*) { return 0.0; });
   std::vector<Grid> fitted(1 + kUnder, nothing);
+  Grid change({kStretchedCoatAlpha, kStretchedCoatDirection, kChangePoints * terms},
+              [](const double*) { return 0.0; });
   parallel(steps, [&](int k) {
     const double place = (k + 1.0) / steps;
     const auto all = differences<Distribution>(shapes, place * place * place, round);
@@ -234,13 +270,15 @@ StretchedTables stretched_coats(const CoatedTables& round) {
     };
     fit(all.coat, fitted[0]);
     for (int b = 0; b < kUnder; ++b) fit(all.under[b], fitted[1 + b]);
+    fit(all.change, change);
   });
+  fitted.push_back(change);
   std::vector<std::vector<float>> splines;
   for (const Grid& grid : fitted) {
     const Values coefficients = grid.spline(1);
     splines.emplace_back(coefficients.begin(), coefficients.end());
   }
-  return {splines[0], {splines.begin() + 1, splines.end()}};
+  return {splines[0], {splines.begin() + 1, splines.end() - 1}, splines.back()};
 }
 
 template StretchedTables stretched_coats<Ggx>(const CoatedTables&);

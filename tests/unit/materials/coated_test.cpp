@@ -254,9 +254,12 @@ TEST_CASE("what lies under a film, and a coat under one, keeps its energy" * kSu
   const Kind round[] = {{"mirror", [](double) { return mirror(1); }},
                         {"microfacet", [](double x) { return microfacet(1, 0.1 + 0.9 * x); }},
                         {"glossy", [](double x) { return glossy(1, std::expm1(7 * x)); }}};
-  const Kind stretched{"stretched", [](double x) { return microfacet(1, 0.2 + 0.8 * x, 0.5); }};
+  const Kind stretched[] = {
+      {"anisotropy 0.5", [](double x) { return microfacet(1, 0.2 + 0.8 * x, 0.5); }},
+      {"anisotropy 0.9", [](double x) { return microfacet(1, 0.2 + 0.8 * x, 0.9); }}};
+  // Of light of 500 nm; one that does away with it along the normal where `most` is 0.
   const auto under_films = [](const Kind& base, std::span<const Kind> tops, double least,
-                              double most) {
+                              double most, int panels) {
     Range a;
     int k = 0;
     for (const Kind& top : tops)
@@ -264,14 +267,16 @@ TEST_CASE("what lies under a film, and a coat under one, keeps its energy" * kSu
         ++k;
         const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
         const double degrees = kAngles[k % std::size(kAngles)];
+        const double ior = 1.02 * std::pow(2.5 / 1.02, place(0.5497)),
+                     film = most > 0 ? 1 + 1.5 * place(0.4503) : std::sqrt(ior),
+                     thickness = most > 0 ? least * std::pow(most / least, place(0.7549))
+                                          : 5e-7 / (4 * film);
         const Material m =
-            film_mix(base.make(place(0.3019)), top.make(place(0.8192)),
-                     1.02 * std::pow(2.5 / 1.02, place(0.5497)), 1 + 1.5 * place(0.4503),
-                     least * std::pow(most / least, place(0.7549)), 5e-7);
-        a.add(albedo(m, degrees, 0, 16) + mirrored(m, degrees));
+            film_mix(base.make(place(0.3019)), top.make(place(0.8192)), ior, film, thickness, 5e-7);
+        a.add(albedo(m, degrees, 2 * kPi<double> * place(0.6711), panels) + mirrored(m, degrees));
       }
-    MESSAGE(base.name, " under a film of up to ", most * 1e6, " um: albedo from ", a.least, " to ",
-            a.most);
+    MESSAGE(base.name, " under ", tops[0].name, " and a film of up to ", most * 1e6,
+            " um: albedo from ", a.least, " to ", a.most);
     return a;
   };
   const Kind bases[] = {{"matte", [](double) { return matte(1); }},
@@ -284,19 +289,29 @@ TEST_CASE("what lies under a film, and a coat under one, keeps its energy" * kSu
   struct Thickness {
     double least, most, bound;
   };
-  // Of light of 500 nm.
-  for (const Thickness& t :
-       {Thickness{1e-8, 6e-7, 1e-4}, {6e-7, 1e-6, 3e-4}, {1e-6, 4e-6, 4e-3}, {4e-6, 1e-4, 1e-4}})
+  for (const Thickness& t : {Thickness{0, 0, 1e-4},
+                             {1e-8, 6e-7, 1e-4},
+                             {6e-7, 1e-6, 3e-4},
+                             {1e-6, 4e-6, 4e-3},
+                             {4e-6, 1e-4, 1e-4}})
     for (const Kind& base : bases) {
-      const Range a = under_films(base, round, t.least, t.most);
+      const Range a = under_films(base, round, t.least, t.most, 16);
       CHECK_MESSAGE(a.least > 1 - t.bound, base.name);
       CHECK_MESSAGE(a.most < 1 + t.bound, base.name);
     }
-  for (const Range& a : {under_films(bases[0], {&stretched, 1}, 1e-8, 1e-6),
-                         under_films(stretched, round, 1e-8, 1e-6)}) {
-    CHECK(a.least > 1 - 3e-2);
-    CHECK(a.most < 1 + 3e-2);
-  }
+  struct Stretched {
+    const Kind& kind;
+    double under, coat;  ///< bounds
+  };
+  for (const Stretched& s : {Stretched{stretched[0], 1e-3, 4e-3}, {stretched[1], 2e-3, 1e-2}})
+    for (const double most : {0.0, 1e-6}) {
+      const Range under = under_films(s.kind, round, 1e-8, most, 12),
+                  coat = under_films(bases[0], {&s.kind, 1}, 1e-8, most, 12);
+      CHECK_MESSAGE(under.least > 1 - s.under, s.kind.name);
+      CHECK_MESSAGE(under.most < 1 + s.under, s.kind.name);
+      CHECK_MESSAGE(coat.least > 1 - s.coat, s.kind.name);
+      CHECK_MESSAGE(coat.most < 1 + s.coat, s.kind.name);
+    }
 }
 
 TEST_CASE("plastic under coats of several lobes, of stretched ones, and under two" * kSum) {
