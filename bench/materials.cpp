@@ -127,6 +127,7 @@ constexpr const char* kVariants[] = {
     "film_dielectric(1.5, 1.38, 600nm, $wavelength, 0.2)",
     "film_dielectric(1.5, 1.38, 600nm, $wavelength, 0.4, anisotropy = 0.8)",
     "film_mix(matte(0.5), microfacet(1, 0.3), 1.5, 1.38, 300nm, $wavelength)",
+    "film_mix(matte(0.5), microfacet(1, 0.3, 0.8), 1.5, 1.38, 300nm, $wavelength)",
     "coat(conductor(0.2, 3.4, 0.3), matte(0.5))",
     "coat(mirror(), fresnel_mix(matte(0.5), glossy(1, 40.0)))",
     "coat(mirror(), microfacet(0.8, 0.4))",

@@ -151,7 +151,7 @@ struct FacetsAlong {
     return eta > 32 ? sum * (mean_through(eta) / mean_through(R(32))) : sum;
   }
   /// What G^2 changes by where A changes by 1 at each point.
-  std::array<R, axes::kChangePoints> changes(const float* table, R place) const {
+  [[gnu::noinline]] std::array<R, axes::kChangePoints> changes(const float* table, R place) const {
     using namespace axes;
     using Basis = ShapeBasis<R>;
     constexpr int terms = Basis::terms(kStretchedCoatDegree), numbers = terms * kChangePoints;

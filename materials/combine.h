@@ -47,9 +47,9 @@
 /// Under a film, of `film_mix(base, coat, ior, film_ior, thickness, wavelength)`, E is what film
 /// and interface reflect (materials/coat.h), and g and h are solved for too. Mattes, round facets
 /// and `glossy` in it and under it keep their energy within 1e-4 where it is up to 1.2 waves thick,
-/// 3e-4 up to 2, 4e-3 up to 8 and 1e-4 above. Of stretched facets what films change is known of first
-/// order: under films of up to 1500 nm they are within 5e-4 at anisotropy 0.5 and 2e-3 at 0.9, in
-/// such a coat within 3e-3 and 1.5e-2, on average 2e-4 and 6e-4.
+/// 3e-4 up to 2, 4e-3 up to 8 and 1e-4 above. Of stretched facets what films change is known of
+/// first order: under films of up to 1500 nm they are within 5e-4 at anisotropy 0.5 and 2e-3 at
+/// 0.9, in such a coat within 3e-3 and 1.5e-2, on average 2e-4 and 6e-4.
 ///
 /// Where the index is above 1, interfaces right below the coat, or below several, get what passes
 /// it once if light changes sides, twice if it stays outside, and never if it stays inside, along
@@ -270,42 +270,49 @@ inline R squared_of_each(const CoatTree<R>& coats, const NodeAbove& above,
   return squared;
 }
 
-/// G^2 of stretched lobes from what is solved for round ones of the same mean width. Below bare
-/// coats it is as much more as the product is; films add what they change of first order.
+/// G^2 of a lobe along one direction from what is solved for round ones of the same mean width. Of
+/// stretched lobes it is as much more below bare coats as the product is; films add what they
+/// change of first order.
 template <class R>
-class StretchedUnderCoats {
+class SquaredUnderCoats {
  public:
-  StretchedUnderCoats(const CoatTree<R>& coats, const NodeAbove& above, const CoatedLobe<R>& lobe)
-      : coats_(coats), above_(above), lobe_(lobe), round_(lobe.round()) {}
+  SquaredUnderCoats(const CoatTree<R>& coats, const NodeAbove& above, const UnderCoats<R>& under,
+                    const CoatedLobe<R>& lobe)
+      : coats_(coats), above_(above), under_(under), lobe_(lobe), along_(under.along(lobe)) {}
 
-  /// Of wavelength j, for `solved`. Wavelengths are asked for in order.
-  R squared(const UnderCoats<R>& under, const typename UnderCoats<R>::Along& along, int j, R solved,
-            R share) {
-    if (last_ < 0 || !repeated(j)) {
-      of_round_ = squared_of_each(coats_, above_, round_, j);
-      of_stretched_ = squared_of_each(coats_, above_, lobe_, j);
-    }
-    last_ = j;
-    if (!under.filmed(j)) return of_round_ > 0 ? solved * (of_stretched_ / of_round_) : R(0);
-    return std::max(solved + (of_stretched_ - of_round_) + under.changed(j, along),
-                    share * kLeastSquared<R>);
+  /// For T = `through` and, of a part of a coat, E = `reflected`. Quick where j is as the one
+  /// before.
+  R at(int j, R through, R reflected) {
+    const R solved = under_.squared(j, along_, through, reflected);
+    return lobe_.stretched() ? stretched(j, solved, through * reflected) : solved;
   }
 
  private:
-  /// Whether without films the coats are as at the wavelength asked for before.
-  bool repeated(int j) const {
-    bool all = j == last_ + 1;
-    const auto check = [&](int base) { all = all && coats_.bare(base).repeated(j); };
-    if (above_.part_of >= 0) check(above_.part_of);
-    for_each_together(coats_, above_.base, j, check);
+  [[gnu::noinline]] R stretched(int j, R solved, R share) {
+    if (last_ + 1 != j || !bare_repeated(j)) {
+      of_round_ = squared_of_each(coats_, above_, lobe_.round(), j);
+      of_stretched_ = squared_of_each(coats_, above_, lobe_, j);
+    }
+    last_ = j;
+    if (!under_.filmed(j)) return of_round_ > 0 ? solved * (of_stretched_ / of_round_) : R(0);
+    return std::max(solved + (of_stretched_ - of_round_) + under_.changed(j, along_),
+                    share * kLeastSquared<R>);
+  }
+  /// Whether without films the coats are as at the wavelength before.
+  bool bare_repeated(int j) const {
+    bool all = above_.part_of < 0 || coats_.bare(above_.part_of).repeated(j);
+    for_each_together(coats_, above_.base, j,
+                      [&](int base) { all = all && coats_.bare(base).repeated(j); });
     return all;
   }
 
   const CoatTree<R>& coats_;
   const NodeAbove& above_;
-  CoatedLobe<R> lobe_, round_;
+  const UnderCoats<R>& under_;
+  const CoatedLobe<R>& lobe_;
+  typename UnderCoats<R>::Along along_;
   R of_stretched_{}, of_round_{};
-  int last_ = -1;
+  int last_ = -1;  ///< the wavelength that these are of
 };
 
 /// g of materials/coated.h along one direction, of a lobe that is known below a coat or as a part
@@ -317,10 +324,8 @@ inline Spectrum<R> coated_scaling(const CoatTree<R>& coats, const NodeAbove& abo
                                   const Spectrum<R>& through) {
   const bool part = above.part_of >= 0;
   const CoatNumbers<R>& coat = coats.numbers(part ? above.part_of : above.base);
-  typename UnderCoats<R>::Along along;
-  if (under) along = under->along(lobe);
-  std::optional<StretchedUnderCoats<R>> stretched;
-  if (under && lobe.stretched()) stretched.emplace(coats, above, lobe);
+  std::optional<SquaredUnderCoats<R>> squared_under;
+  if (under) squared_under.emplace(coats, above, *under, lobe);
   Spectrum<R> g{R(1)};
   const Broadness<R> broad = part ? lobe.broad() : Broadness<R>{};
   CoatDirection<R> direction(lobe.z);
@@ -339,10 +344,9 @@ inline Spectrum<R> coated_scaling(const CoatTree<R>& coats, const NodeAbove& abo
     const CoatShape<R> shape = part ? coat.of(j, broad) : coat.shape[j];
     const R e = part ? shape.split(direction, coat.face(j)).reflected : R(1);
     const R t = together ? through[j] : R(1);
-    R squared = solved ? under->squared(j, along, t, e)
-                : part ? lobe.as_coat(eta, e)
-                       : lobe.below(eta, shape, t);
-    if (solved && stretched) squared = stretched->squared(*under, along, j, squared, e * t);
+    const R squared = solved ? squared_under->at(j, t, e)
+                      : part ? lobe.as_coat(eta, e)
+                             : lobe.below(eta, shape, t);
     g[j] = squared > 0 ? e * t / std::sqrt(squared) : R(0);
   }
   return g;
