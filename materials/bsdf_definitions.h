@@ -268,7 +268,8 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
         if (!detail::is_specular(model))
           choice.scaling.of[i] =
               coated_scaling(choice.coats, above, choice.solution(i), model.coated(w),
-                             above.coated() ? choice.coats[above.base].through_o : Spectrum<R>());
+                             above.coated() ? choice.coats[above.base].through_o : Spectrum<R>(),
+                             std::abs(choice.frames.seen(above.upright(), wo).z), false);
       } else if constexpr (requires { model.coated(w, 0); }) {
         if (!detail::is_specular(model) && above.once_base >= 0)
           choice.scaling.of[i] = bent_scaling(choice.coats, above, choice.solution(i), model, w);
@@ -299,7 +300,7 @@ void Bsdf<R>::know_material(Choice& choice) const {
     with_model(i, 0, [&](const auto& model) {
       const Vec3<R> up{0, 0, 1};  // lobes are as wide along any direction
       if constexpr (detail::kLambert<R, std::decay_t<decltype(model)>>) {
-        if (const int base = above.matte_base; base >= 0)
+        if (const int base = above.base; base >= 0)
           choice.coats[base].mean = mean_through_coats(i, base, choice);
       } else if constexpr (requires { model.coated(up); }) {
         if (!detail::is_specular(model)) solve(model.coated(up));
@@ -455,8 +456,9 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
         if constexpr (requires { model.coated(wi); }) {
           if (above.any()) {
             const CoatedLobe<R> lobe = model.coated(choice.frames.seen(i, wi));
+            const R z = std::abs(choice.frames.seen(above.upright(), wi).z);
             total.f += l.f * coated(w.bare, coated_scaling(choice.coats, above, choice.solution(i),
-                                                           lobe, w.through_i));
+                                                           lobe, w.through_i, z, true));
             return 0;
           }
         } else if constexpr (requires { model.coated(wi, 0); }) {
@@ -567,13 +569,16 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u,
     Spectrum<R> weight = weights.of[i].other;
     if (node_count() > 1) {
       const NodeAbove& above = choice.coats.above.of[i];
+      const int upright = above.any() ? above.upright() : i;
       if (const OverGlass<R>* glass = over_glass(i, choice))
         weight = weights.of[coat_base(layout_->nodes()[i])].crossing * glass->colour;
       else if (above.once_base >= 0)
         weight = glass_weight(weights.of[i], choice.coats[above.once_base],
                               choice.glass.of[above.once_base], wo, s.wi);
       else
-        weight = delta_weight(weight, choice.coats, above, cos_i);
+        weight =
+            delta_weight(weight, choice.coats, above, std::abs(choice.frames.seen(upright, wo).z),
+                         std::abs(choice.frames.seen(upright, s.wi).z));
     }
     for (int j = 0; j < kWavelengths; ++j) {
       if (!reflect && t.eta[j] != eta) continue;

@@ -41,13 +41,15 @@ struct CoatKind {
 /// What lies above a node. A coat is known by the node right below it.
 struct NodeAbove {
   int base = -1;        ///< the coat right above; -1: there is none
-  int matte_base = -1;  ///< the same of what is tilted below it: Lambert lobes get its factor there
   int once_base = -1;   ///< the same where what changes sides passes it once (glass_coat.h)
   int part_of = -1;     ///< the coat of whose known lobes this node is one, or some
+  bool tilted = false;  ///< its normal is not that of these coats
 
   bool coated() const { return base >= 0; }
   /// Whether a coat lies above it, or it is a part of one.
   bool any() const { return coated() || part_of >= 0; }
+  /// A node that sees the normal of these coats. \pre any()
+  int upright() const { return part_of >= 0 ? part_of : base; }
 };
 
 /// What the numbers of a coat are made of.
@@ -252,7 +254,8 @@ inline bool for_each_coat_lobe(const Layout& layout, const R* params, int node,
                                PerNode<Spectrum<R>>& weights, Visit visit) {
   const Layout::Node& n = layout.nodes()[node];
   const R* p = params + n.first_param;
-  if (weigh_by_numbers(n, p, node, weights.of.data())) {
+  if (n.lobe == Lobe::Tilt) weights.of[n.children[0]] = weights.of[node];
+  if (n.lobe == Lobe::Tilt || weigh_by_numbers(n, p, node, weights.of.data())) {
     for (int c = 0; c < n.child_count; ++c)
       if (!for_each_coat_lobe(layout, params, n.children[c], weights, visit)) return false;
     return true;
@@ -363,8 +366,8 @@ inline void find_coats(const Layout& layout, const R* params, CoatTree<R>& coats
       if (std::all_of(ior, ior + kWavelengths, [](R n) { return n == 1; }) &&
           std::none_of(films.begin(), films.end(), [](const Film<R>& f) { return f.there(); }))
         return;
-      const int upper = above[i].base;
-      above[base] = {.base = base, .matte_base = base};
+      const int upper = above[i].tilted ? -1 : above[i].base;
+      above[base] = {.base = base};
       CoatAbove<R>& coat =
           coats[base] = {.kind = detail::coat_kind(layout, params, lobes), .upper = upper};
       CoatGiven<R> given{{}, films, coat.kind.held, coat.kind.even, {}};
@@ -386,7 +389,7 @@ inline void find_coats(const Layout& layout, const R* params, CoatTree<R>& coats
     else if (node.lobe == Lobe::Layer && layout.below_scales(a).lobe == Lobe::Sheen)
       above[b] = {};
     else if (node.lobe == Lobe::Tilt)
-      above[a] = {.matte_base = above[i].matte_base};
+      above[a].tilted = true;
   }
 }
 

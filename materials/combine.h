@@ -33,9 +33,13 @@
 ///   base: min(T, T')
 /// which never gains, as it is below T. All of these are symmetric. A specular coat over a Lambert
 /// base is 1 exactly; but near grazing a broad coat of which no more is known loses much: min(F,
-/// F') is small where F' is. What is in a `tilt` gets min(T, T') too, but for Lambert's lobes:
-/// their factor never gains, as about any other normal more of the lobe is where less is let
-/// through.
+/// F') is small where F' is.
+///
+/// Known lobes in a `tilt` get g and h as if the coats were tilted with them, times r(wo) min(1,
+/// r(wi)), where r is T, E or T E about the coats' normal over the same about the lobe's own. So
+/// they are lit and seen through the coats that there are, reflect T, E or T E at most, and little
+/// less where the tilt is little. Other lobes get min(T, T') there too, but for Lambert's: their
+/// factor never gains, as about any other normal more of the lobe is where less is let through.
 ///
 /// Where a coat lies right under another, as plastic under varnish, and so on, T is the product of
 /// all coats above, and a lobe of a coat below others gets E of its coat times their T: g and h are
@@ -231,16 +235,21 @@ inline Spectrum<R> glass_weight(const NodeWeight<R>& w, const CoatAbove<R>& coat
   return f;
 }
 
-/// The factor for deltas that reflect, from that of their node.
+/// The factor for deltas that reflect, from that of their node, for directions whose |cosines|
+/// about the normal of the coats are `cos_o` and `cos_i`.
 template <class R>
 inline Spectrum<R> delta_weight(const Spectrum<R>& other, const CoatTree<R>& coats,
-                                const NodeAbove& above, R cosine) {
+                                const NodeAbove& above, R cos_o, R cos_i) {
   if (above.part_of < 0) return other;
   const CoatNumbers<R>& coat = coats.numbers(above.part_of);
   Spectrum<R> f = other;
-  CoatDirection<R> along(std::min(std::abs(cosine), R(1)));
-  for (int j = 0; j < kWavelengths; ++j)
-    if (coat.eta[j] > 1) f[j] *= coat.of(j, {}).split(along, coat.face(j)).reflected;
+  CoatDirection<R> along_o(std::min(cos_o, R(1))), along_i(std::min(cos_i, R(1)));
+  for (int j = 0; j < kWavelengths; ++j) {
+    if (!(coat.eta[j] > 1)) continue;
+    const CoatShape<R> shape = coat.of(j, {});
+    f[j] *= std::min(shape.split(along_o, coat.face(j)).reflected,
+                     shape.split(along_i, coat.face(j)).reflected);
+  }
   return f;
 }
 
@@ -317,18 +326,19 @@ class SquaredUnderCoats {
 
 /// g of materials/coated.h along one direction, of a lobe that is known below a coat or as a part
 /// of one; 1 where no more is known. `through` is what the coats above that count together let
-/// through there, `under` what is solved for the lobe (is_solved_for).
+/// through there, `z` the |cosine| about their normal, `under` what is solved for the lobe
+/// (is_solved_for); what is tilted is `limited` along wi.
 template <class R>
 inline Spectrum<R> coated_scaling(const CoatTree<R>& coats, const NodeAbove& above,
                                   const UnderCoats<R>* under, const CoatedLobe<R>& lobe,
-                                  const Spectrum<R>& through) {
+                                  const Spectrum<R>& through, R z, bool limited) {
   const bool part = above.part_of >= 0;
   const CoatNumbers<R>& coat = coats.numbers(part ? above.part_of : above.base);
   std::optional<SquaredUnderCoats<R>> squared_under;
   if (under) squared_under.emplace(coats, above, *under, lobe);
   Spectrum<R> g{R(1)};
   const Broadness<R> broad = part ? lobe.broad() : Broadness<R>{};
-  CoatDirection<R> direction(lobe.z);
+  CoatDirection<R> direction(lobe.z), upright(z);
   bool known = false, solved = false;
   for (int j = 0; j < kWavelengths; ++j) {
     const bool was_known = known, was_solved = solved;
@@ -343,11 +353,16 @@ inline Spectrum<R> coated_scaling(const CoatTree<R>& coats, const NodeAbove& abo
     }
     const CoatShape<R> shape = part ? coat.of(j, broad) : coat.shape[j];
     const R e = part ? shape.split(direction, coat.face(j)).reflected : R(1);
-    const R t = together ? through[j] : R(1);
+    R t = together ? through[j] : R(1), share = e * t;
+    if (above.tilted) {
+      if (part) share = t * shape.split(upright, coat.face(j)).reflected;
+      if (together) t = split_together(coats, above.base, j, lobe.z).transmitted;
+      if (limited) share = std::min(share, e * t);
+    }
     const R squared = solved ? squared_under->at(j, t, e)
                       : part ? lobe.as_coat(eta, e)
                              : lobe.below(eta, shape, t);
-    g[j] = squared > 0 ? e * t / std::sqrt(squared) : R(0);
+    g[j] = squared > 0 ? share / std::sqrt(squared) : R(0);
   }
   return g;
 }
@@ -363,7 +378,7 @@ inline Spectrum<R> bent_scaling(const CoatTree<R>& coats, const NodeAbove& above
       Spectrum<R> through;
       for (int k = 0; k < kWavelengths; ++k)
         through[k] = split_together(coats, above.base, k, lobe.z).transmitted;
-      of_index = coated_scaling(coats, above, under, lobe, through);
+      of_index = coated_scaling(coats, above, under, lobe, through, lobe.z, false);
     }
     g[j] = of_index[j];
   });

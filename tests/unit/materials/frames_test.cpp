@@ -15,6 +15,7 @@
 #include "tests/sanitized.h"
 #include "tests/stats/distributions.h"
 #include "tests/stats/random.h"
+#include "tests/unit/materials/albedo.h"
 #include "tests/unit/materials/cases.h"
 
 using namespace mms;
@@ -281,7 +282,9 @@ TEST_CASE("nothing that is tilted below coats is brighter than what lights it") 
   const Material bases[] = {
       matte(1),  glossy(1, 30),         microfacet(1, 0.4, 0.6),
       mirror(1), dielectric(kIor, 0.4), fresnel_mix(matte(1), microfacet(1, 0.3), 1.4)};
-  const Material tops[] = {mirror(1), microfacet(1, 0.4)};
+  const Material tops[] = {
+      mirror(1), microfacet(1, 0.4),
+      mix(tilt(microfacet(1, 0.3), 0.5, 0.2), tilt(mirror(1), -0.1, 0.4), 0.4)};
   double most = 0;
   for (const Material& base : bases)
     for (const Material& top : tops)
@@ -307,6 +310,20 @@ TEST_CASE("nothing that is tilted below coats is brighter than what lights it") 
         }
       }
   MESSAGE("largest albedo ", most);
+}
+
+TEST_CASE("what is hardly tilted in and below coats keeps its energy") {
+  const auto hardly = [](const Material& m) { return tilt(m, 1e-5, -2e-5); };
+  const Material metal = microfacet(1, 0.3), brushed = microfacet(1, 0.4, 0.6);
+  for (const Material& m :
+       {coat(microfacet(1, 0.5), hardly(metal), 0, 0, 1.5),
+        coat(brushed, hardly(brushed), 0, 0, 1.7), coat(metal, hardly(glossy(1, 9)), 0, 0, 1.3),
+        coat(hardly(metal), matte(1), 0, 0, 1.5), coat(hardly(brushed), hardly(metal), 0, 0, 1.5),
+        coat(metal, coat(hardly(brushed), hardly(metal), 0, 0, 1.4), 0, 0, 1.5),
+        coat(metal, hardly(coat(hardly(metal), matte(1), 0, 0, 1.4)), 0, 0, 1),
+        film_mix(hardly(metal), hardly(metal), 1.5, 1.9, 2e-7, 5e-7)})
+    for (const double degrees : {0.0, 30.0, 60.0, 75.0, 85.0})
+      CHECK(std::abs(albedo(m, degrees, 0.9) - 1) < 1e-3);
 }
 
 TEST_CASE("a normal is held back by no more than it has to be") {
