@@ -21,7 +21,7 @@ struct HalfVector {
   /// that tells the tangential part of the sum, which is what rounding has left of both, by the
   /// cosines, which are exact. The cosine is half the length of the sum: where directions nearly
   /// cancel, the product of either with `h` would be rounding alone.
-  HalfVector(Vec3<R> a, Vec3<R> b) : h(a + b) {
+  [[gnu::always_inline]] HalfVector(Vec3<R> a, Vec3<R> b) : h(a + b) {
     const Vec3<R> across = a - b;
     const R square = dot(across, across);
     if (square > 0) h = h - across * (dot(h, across) / square);
