@@ -43,7 +43,7 @@ struct NodeAbove {
   int base = -1;        ///< the coat right above; -1: there is none
   int once_base = -1;   ///< the same where what changes sides passes it once (glass_coat.h)
   int part_of = -1;     ///< the coat of whose known lobes this node is one, or some
-  bool tilted = false;  ///< its normal is not that of these coats
+  bool tilted = false;  ///< its normal is not that of all these coats
 
   bool coated() const { return base >= 0; }
   /// Whether a coat lies above it, or it is a part of one.
@@ -366,8 +366,10 @@ inline void find_coats(const Layout& layout, const R* params, CoatTree<R>& coats
       if (std::all_of(ior, ior + kWavelengths, [](R n) { return n == 1; }) &&
           std::none_of(films.begin(), films.end(), [](const Film<R>& f) { return f.there(); }))
         return;
-      const int upper = above[i].tilted ? -1 : above[i].base;
-      above[base] = {.base = base};
+      // What coats send back to glass is not known where they are tilted against each other.
+      const bool apart = above[i].tilted && layout.transmits();
+      const int upper = apart ? -1 : above[i].base;
+      above[base] = {.base = base, .tilted = above[i].tilted && !apart};
       CoatAbove<R>& coat =
           coats[base] = {.kind = detail::coat_kind(layout, params, lobes), .upper = upper};
       CoatGiven<R> given{{}, films, coat.kind.held, coat.kind.even, {}};

@@ -38,8 +38,9 @@
 /// Known lobes in a `tilt` get g and h as if the coats were tilted with them, times r(wo) min(1,
 /// r(wi)), where r is T, E or T E about the coats' normal over the same about the lobe's own. So
 /// they are lit and seen through the coats that there are, reflect T, E or T E at most, and little
-/// less where the tilt is little. Other lobes get min(T, T') there too, but for Lambert's: their
-/// factor never gains, as about any other normal more of the lobe is where less is let through.
+/// less where the tilt is little; so do those below or in a coat in it. Other lobes get min(T, T')
+/// there too, but for Lambert's: their factor never gains, as about any other normal more of the
+/// lobe is where less is let through.
 ///
 /// Where a coat lies right under another, as plastic under varnish, and so on, T is the product of
 /// all coats above, and a lobe of a coat below others gets E of its coat times their T: g and h are

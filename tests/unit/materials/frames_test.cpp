@@ -320,7 +320,8 @@ TEST_CASE("what is hardly tilted in and below coats keeps its energy") {
         coat(brushed, hardly(brushed), 0, 0, 1.7), coat(metal, hardly(glossy(1, 9)), 0, 0, 1.3),
         coat(hardly(metal), matte(1), 0, 0, 1.5), coat(hardly(brushed), hardly(metal), 0, 0, 1.5),
         coat(metal, coat(hardly(brushed), hardly(metal), 0, 0, 1.4), 0, 0, 1.5),
-        coat(metal, hardly(coat(hardly(metal), matte(1), 0, 0, 1.4)), 0, 0, 1),
+        coat(metal, hardly(coat(hardly(metal), matte(1), 0, 0, 1.4)), 0, 0, 1.5),
+        coat(metal, hardly(coat(metal, brushed, 0, 0, 1.4)), 0, 0, 1.5),
         film_mix(hardly(metal), hardly(metal), 1.5, 1.9, 2e-7, 5e-7)})
     for (const double degrees : {0.0, 30.0, 60.0, 75.0, 85.0})
       CHECK(std::abs(albedo(m, degrees, 0.9) - 1) < 1e-3);
