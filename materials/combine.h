@@ -328,11 +328,11 @@ class SquaredUnderCoats {
 /// g of materials/coated.h along one direction, of a lobe that is known below a coat or as a part
 /// of one; 1 where no more is known. `through` is what the coats above that count together let
 /// through there, `z` the |cosine| about their normal, `under` what is solved for the lobe
-/// (is_solved_for); what is tilted is `limited` along wi.
+/// (is_solved_for). What is tilted gets min(1, r) along wi.
 template <class R>
 inline Spectrum<R> coated_scaling(const CoatTree<R>& coats, const NodeAbove& above,
                                   const UnderCoats<R>* under, const CoatedLobe<R>& lobe,
-                                  const Spectrum<R>& through, R z, bool limited) {
+                                  const Spectrum<R>& through, R z, bool is_wi) {
   const bool part = above.part_of >= 0;
   const CoatNumbers<R>& coat = coats.numbers(part ? above.part_of : above.base);
   std::optional<SquaredUnderCoats<R>> squared_under;
@@ -358,7 +358,7 @@ inline Spectrum<R> coated_scaling(const CoatTree<R>& coats, const NodeAbove& abo
     if (above.tilted) {
       if (part) share = t * shape.split(upright, coat.face(j)).reflected;
       if (together) t = split_together(coats, above.base, j, lobe.z).transmitted;
-      if (limited) share = std::min(share, e * t);
+      if (is_wi) share = std::min(share, e * t);
     }
     const R squared = solved ? squared_under->at(j, t, e)
                       : part ? lobe.as_coat(eta, e)
