@@ -339,7 +339,7 @@ inline Spectrum<R> coated_scaling(const CoatTree<R>& coats, const NodeAbove& abo
   if (under) squared_under.emplace(coats, above, *under, lobe);
   Spectrum<R> g{R(1)};
   const Broadness<R> broad = part ? lobe.broad() : Broadness<R>{};
-  CoatDirection<R> direction(lobe.z), upright(z);
+  CoatDirection<R> direction(lobe.z);
   bool known = false, solved = false;
   for (int j = 0; j < kWavelengths; ++j) {
     const bool was_known = known, was_solved = solved;
@@ -356,7 +356,7 @@ inline Spectrum<R> coated_scaling(const CoatTree<R>& coats, const NodeAbove& abo
     const R e = part ? shape.split(direction, coat.face(j)).reflected : R(1);
     R t = together ? through[j] : R(1), share = e * t;
     if (above.tilted) {
-      if (part) share = t * shape.split(upright, coat.face(j)).reflected;
+      if (part) share = t * shape.split(std::min(z, R(1)), coat.face(j)).reflected;
       if (together) t = split_together(coats, above.base, j, lobe.z).transmitted;
       if (is_wi) share = std::min(share, e * t);
     }
