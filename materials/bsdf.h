@@ -26,8 +26,8 @@
 ///   is compressed). Importance: `wi` is where light goes on to (light and photon paths), no scale.
 ///   f_Importance(wo, wi) = f_Radiance(wi, wo). Nothing else depends on the mode, but that `sheen`
 ///   and what it covers by `layer` are not reciprocal on one side either, nor is `tilt`, whose
-///   normal is held back by `wo` in both modes (materials/frames.h), as what coats above it let
-///   through is (materials/combine.h).
+///   normal is held back by `wo` in both modes (materials/frames.h), and in and below coats favours
+///   `wo` too (materials/combine.h).
 /// * Numbers out of range (negative or NaN colour, roughness, ...) are clamped into range.
 
 #include <algorithm>
