@@ -58,17 +58,15 @@ inline R glossy_as_facets(R gloss) {
   return 1 / std::sqrt(1 + 2 * gloss);
 }
 
-/// The mean over the hemisphere of f(z), z the |cosine|, by `parts` rules of eight points. They are
-/// dense towards grazing.
-template <class R, class F>
-inline R hemisphere_mean(const F& f, int parts = 2) {
-  const auto at = [&](double u) {
-    const double z = u * u * u;
-    return 6 * u * u * z * double(f(R(z)));
-  };
-  double sum = 0;
-  for (int k = 0; k < parts; ++k) sum += integrate<8>(at, double(k) / parts, (k + 1.0) / parts);
-  return R(sum);
+/// Calls `visit(z, weight)` for the points of `parts` rules of eight for the mean over the
+/// hemisphere, z the |cosine|. They are dense towards grazing.
+template <class Visit>
+inline void for_each_on_hemisphere(int parts, const Visit& visit) {
+  for (int k = 0; k < parts; ++k)
+    for (int i = 0; i < 8; ++i) {
+      const double u = (k + gauss<8>().x[i]) / parts, z = u * u * u;
+      visit(z, 6 * u * u * z * gauss<8>().w[i] / parts);
+    }
 }
 
 template <class R>

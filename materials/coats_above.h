@@ -70,13 +70,16 @@ class SolvedCoat {
     given_ = given;
     numbers_ = {given.ior.v.data(), given.films, given.held, given.even, given.least};
     bare_.reset();
-    if (numbers_.filmed()) bare_ = numbers_.without_films();
     mean_through_.reset();
   }
   bool solves(const CoatGiven<R>& given) const { return given == given_; }
 
   const CoatNumbers<R>& numbers() const { return numbers_; }
-  const CoatNumbers<R>& bare() const { return bare_ ? *bare_ : numbers_; }
+  /// The same without films.
+  const CoatNumbers<R>& bare() const {
+    if (!bare_ && numbers_.filmed()) bare_ = numbers_.without_films();
+    return bare_ ? *bare_ : numbers_;
+  }
   /// The mean over the hemisphere of what it lets through, where nothing is above it. \pre no film
   const Spectrum<R>& mean_through() {
     if (!mean_through_) {
@@ -91,7 +94,7 @@ class SolvedCoat {
  private:
   CoatGiven<R> given_;
   CoatNumbers<R> numbers_;
-  std::optional<CoatNumbers<R>> bare_;  ///< where a film is: without it
+  mutable std::optional<CoatNumbers<R>> bare_;  ///< where a film is, once it is asked for
   std::optional<Spectrum<R>> mean_through_;
 };
 
@@ -342,11 +345,11 @@ inline bool is_solved_for(const CoatTree<R>& coats, const NodeAbove& above) {
 /// itself, as broad as `broad`, is a part of.
 template <class R>
 inline Coats<R> coats_above(const CoatTree<R>& coats, const NodeAbove& above,
-                            const Broadness<R>& broad = {}) {
+                            const Broadness<R>& broad = {}, bool stretched = false) {
   Coats<R> all;
   if (above.part_of >= 0) all.part = coats.numbers(above.part_of).as(broad);
   for (int at = above.base; at >= 0; at = coats[at].upper)
-    all.add(coats.numbers(at), coats.bare(at));
+    all.add(coats.numbers(at), stretched ? &coats.bare(at) : nullptr);
   return all;
 }
 

@@ -68,11 +68,12 @@ struct Coats {
   std::array<const CoatNumbers<R>*, kMost> of, bare;  ///< `bare` without their films
   int count = 0;
 
-  void add(const CoatNumbers<R>& coat, const CoatNumbers<R>& without_films) {
+  /// `without_films` is of stretched lobes alone.
+  void add(const CoatNumbers<R>& coat, const CoatNumbers<R>* without_films) {
     of[count] = &coat;
-    bare[count++] = &without_films;
+    bare[count++] = without_films;
   }
-  /// The same without their films.
+  /// The same without their films. \pre a stretched lobe
   Coats without_films() const {
     Coats to = *this;
     to.of = bare;
@@ -100,15 +101,30 @@ struct Coats {
     return most;
   }
   bool several(int j) const { return count > 1 && of[0]->eta[j] > 1 && of[1]->eta[j] > 1; }
-  /// What the lobe is to reflect along a direction of |cosine| `z`: T, of all coats up to one whose
-  /// index is not above 1, or T E.
-  R through(int j, R z) const {
+};
+
+/// What a lobe below coats is to reflect along a direction of |cosine| `z`: T, of all coats up to
+/// one whose index is not above 1, or T E.
+template <class R>
+class CoatsAlong {
+ public:
+  CoatsAlong(const Coats<R>& coats, R z) : coats_(coats), part_(z) {
+    for (int k = 0; k < coats.count; ++k) of_[k].emplace(z);
+  }
+
+  R through(int j) {
     R t = 1;
-    for (int k = 0; k < count && of[k]->eta[j] > 1; ++k) t *= of[k]->split(j, z).transmitted;
+    for (int k = 0; k < coats_.count && coats_.of[k]->eta[j] > 1; ++k)
+      t *= coats_.of[k]->split(j, *of_[k]).transmitted;
     return t;
   }
-  R reflected(int j, R z) const { return part ? part->split(j, z).reflected : R(1); }
-  R share(int j, R z) const { return through(j, z) * reflected(j, z); }
+  R reflected(int j) { return coats_.part ? coats_.part->split(j, part_).reflected : R(1); }
+  R share(int j) { return through(j) * reflected(j); }
+
+ private:
+  const Coats<R>& coats_;
+  CoatDirection<R> part_;
+  std::array<std::optional<CoatDirection<R>>, Coats<R>::kMost> of_;
 };
 
 /// A copy, by which a solution is found again; of more than a few coats there is none.
@@ -139,13 +155,26 @@ class MeanThrough {
  public:
   void solve(const Coats<R>& coats) {
     kept_.keep(coats);
-    for (int j = 0; j < kWavelengths; ++j)
-      if (j > 0 && coats.repeated(j))
-        mean_[j] = mean_[j - 1];
-      else if (coats.several(j) || coats.of[0]->films[j].there())
-        mean_[j] = hemisphere_mean<R>([&](R z) { return coats.through(j, z); }, coats.parts(j));
+    std::bitset<kWavelengths> summed;
+    int parts = 0;
+    for (int j = 0; j < kWavelengths; ++j) {
+      if (j > 0 && coats.repeated(j)) continue;
+      summed[j] = coats.several(j) || coats.of[0]->films[j].there();
+      if (summed[j])
+        parts = std::max(parts, coats.parts(j));
       else
         mean_[j] = 1 - coats.of[0]->mean_reflected(j);
+    }
+    std::array<double, kWavelengths> sum{};
+    for_each_on_hemisphere(parts, [&](double z, double weight) {
+      CoatsAlong<R> along(coats, R(z));
+      for (int j = 0; j < kWavelengths; ++j)
+        if (summed[j]) sum[j] += weight * double(along.through(j));
+    });
+    for (int j = 0; j < kWavelengths; ++j) {
+      if (summed[j]) mean_[j] = R(sum[j]);
+      if (j > 0 && coats.repeated(j)) mean_[j] = mean_[j - 1];
+    }
   }
   bool solves(const Coats<R>& coats) const { return kept_.are(coats); }
   const Spectrum<R>& mean() const { return mean_; }
@@ -238,37 +267,44 @@ class UnderCoats {
     count_ = 0;
     filmed_.reset();
     const SpreadMatrix<R> matrix(lobe_);
-    std::optional<Coats<R>> bare;
+    std::array<int, kWavelengths> wavelength;  // of a solution
     for (int j = 0; j < kWavelengths; ++j) {
       repeated_[j] = coats.repeated(j);
       at_[j] = std::max(count_ - 1, 0);
       if (!coats.known(j) || (count_ > 0 && repeated_[j])) continue;
-      at_[j] = count_++;
-      Values through, reflected;
-      for (int k = 0; k < axes::kSpread; ++k) {
-        const R z = matrix.cosine(k);
-        through[k] = coats.through(j, z);
-        reflected[k] = through[k] * coats.reflected(j, z);
+      filmed_[count_] = coats.filmed(j);
+      at_[j] = count_;
+      wavelength[count_++] = j;
+    }
+    Values through[kWavelengths], reflected[kWavelengths];
+    for (int k = 0; k < axes::kSpread; ++k) {
+      CoatsAlong<R> along(coats, matrix.cosine(k));
+      for (int n = 0; n < count_; ++n) {
+        through[n][k] = along.through(wavelength[n]);
+        if (reflects_) reflected[n][k] = along.reflected(wavelength[n]);
       }
-      filmed_[at_[j]] = coats.filmed(j);
-      if (stretched_ && coats.filmed(j)) {
-        if (!bare) bare = coats.without_films();
-        for (int i = 0; i < axes::kChangePoints; ++i) {
-          const R z = R(chebyshev_points<axes::kChangePoints>()[i]);
-          changed_[at_[j]][i] = coats.share(j, z) - bare->share(j, z);
-        }
-      }
-      const Values below = scaled(matrix, through, 4);
-      Values& above = above_[at_[j]];
-      for (int k = 0; k < axes::kSpread; ++k) above[k] = below[k] * below[k] - through[k];
+    }
+    for (int n = 0; n < count_; ++n) {
+      const Values below = scaled(matrix, through[n], 4);
+      for (int k = 0; k < axes::kSpread; ++k) above_[n][k] = below[k] * below[k] - through[n][k];
       if (!reflects_) continue;
-      const Values part = scaled(matrix, reflected, 12);
-      Values& rest = rest_[at_[j]];
-      filmed_part_[at_[j]] = coats.part->face(j).film.there();
+      Values all;
+      for (int k = 0; k < axes::kSpread; ++k) all[k] = through[n][k] * reflected[n][k];
+      const Values part = scaled(matrix, all, 12);
+      filmed_part_[n] = coats.part->films[wavelength[n]].there();
       for (int k = 0; k < axes::kSpread; ++k)
-        rest[k] = filmed_part_[at_[j]] ? part[k] * part[k] - reflected[k]
-                                       : 2 * std::log(part[k] / below[k]) -
-                                             std::log(coats.reflected(j, matrix.cosine(k)));
+        rest_[n][k] = filmed_part_[n]
+                          ? part[k] * part[k] - all[k]
+                          : 2 * std::log(part[k] / below[k]) - std::log(reflected[n][k]);
+    }
+    if (!stretched_ || filmed_.none()) return;
+    const Coats<R> bare = coats.without_films();
+    for (int i = 0; i < axes::kChangePoints; ++i) {
+      const R z = R(chebyshev_points<axes::kChangePoints>()[i]);
+      CoatsAlong<R> along(coats, z), bare_along(bare, z);
+      for (int n = 0; n < count_; ++n)
+        if (filmed_[n])
+          changed_[n][i] = along.share(wavelength[n]) - bare_along.share(wavelength[n]);
     }
   }
   bool solves(const CoatedLobe<R>& lobe, const Coats<R>& coats) const {
