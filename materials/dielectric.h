@@ -36,6 +36,8 @@ struct BareFace {
   /// Of light along a direction of cosine `c` that meets the index ratio `eta`, from outside or
   /// not.
   FresnelSplit<R> split(int, R c, R eta, bool) const { return fresnel_split(c, eta); }
+  /// The same at a facet of a rough interface.
+  FresnelSplit<R> facet(int, R c, R eta, bool) const { return fresnel_split(c, eta); }
 
   /// What facets lose along a direction and in the mean, for one index and all wavelengths of it.
   using Loss = R;
@@ -205,7 +207,7 @@ struct RoughInterface {
     const R c = dot(up, h);
     if (!(c > 0)) return false;
     const R eta = rough_eta(0, wo);
-    const Choice choice = choose(0, face.split(0, std::min(c, R(1)), eta, wo.z > 0));
+    const Choice choice = choose(0, face.facet(0, std::min(c, R(1)), eta, wo.z > 0));
     if (u_lobe < choice.reflect) {
       wi = normalize(h * (2 * c) - up);
       if (!(wi.z > 0)) return false;
@@ -304,7 +306,7 @@ struct RoughInterface {
             pdf = visible(facets, o, shadow, h) / 4;
     FresnelSplit<R> s;
     for (int j = 0; j < kWavelengths; ++j) {
-      if (!repeated(j)) s = face.split(j, half.cosine, rough_eta(j, wo), wo.z > 0);
+      if (!repeated(j)) s = face.facet(j, half.cosine, rough_eta(j, wo), wo.z > 0);
       out.f[j] = s.reflected * reflected[j] * f;
       out.pdf[j] = choose(j, s).reflect * pdf;
     }
@@ -330,7 +332,7 @@ struct RoughInterface {
       h = h * (h.z < 0 ? -inv : inv);
       const R oh = dot(o, h), ih = dot(i, h);
       if (!(oh > 0) || !(ih < 0) || !(h.z > 0)) continue;
-      const FresnelSplit<R> s = face.split(j, std::min(oh, R(1)), eta, wo.z > 0);
+      const FresnelSplit<R> s = face.facet(j, std::min(oh, R(1)), eta, wo.z > 0);
       const R jacobian = -ih * inv * inv;
       const R scale = mode == Mode::Radiance ? R(1) : eta * eta;
       // masking already holds 1 / (4 |wo.z| |wi.z|).

@@ -112,12 +112,25 @@ struct FilmedLoss {
 };
 
 /// The terms by which a film's q is known, the points that they are found from, and up to how many
-/// fringes that is within 5e-4 of what facets lose.
+/// fringes, and waves of where the index is 1, that is within 5e-4 of what facets lose: the more of
+/// these, the sharper films of high indices are towards grazing.
 struct FilmOrder {
   int terms, points;
-  double fringes;
+  double fringes, waves;
 };
-inline constexpr FilmOrder kThinFilm{8, 10, 1.5}, kThickFilm{axes::kFilmTerms, 14, 3};
+inline constexpr FilmOrder kThinFilm{8, 10, 1.5, 2}, kThickFilm{axes::kFilmTerms, 14, 2, 3};
+
+/// How many more fringes or waves a film, seen from the lower index, has than `order` knows.
+template <class R>
+inline R beyond(const FilmOrder& order, const Film<R>& film) {
+  return std::max(film.fringes - R(order.fringes), film.waves() - R(order.waves));
+}
+
+/// How much of its fringes a film on rough glass shows, seen from the lower index.
+template <class R>
+inline R film_contrast(const Film<R>& film) {
+  return film.ior < 1 ? R(1) : faded(beyond(kThickFilm, film));
+}
 
 /// Films between two indices at Chebyshev's points of the cosine at a facet.
 template <class R, const FilmOrder& kOrder>
@@ -137,12 +150,10 @@ struct FilmPoints {
     const auto& [cosines, parts] = rule();
     if (!films.is_of(film.ior, eta)) *this = {film.ior, eta};
     Values through;
-    if (film.ior < 1) {
+    if (film.ior < 1)
       for (int i = 0; i < kCount; ++i) through[i] = film.split(cosines[i], R(1), eta).transmitted;
-    } else {
-      const R more = std::max(film.fringes - R(kThickFilm.fringes), R(0));
-      through = films.split(film.phases, std::exp(-more * more)).transmitted;
-    }
+    else
+      through = films.split(film.phases, film_contrast(film)).transmitted;
     for (int i = 0; i < kCount; ++i) {
       const R change = bare[i] > 0 ? through[i] / bare[i] - 1 : R(0);
       through[i] = limited(change, R(-1), R(1e3));
@@ -185,8 +196,7 @@ struct FilmLaw {
   R q[axes::kFilmTerms] = {};
 
   FilmLaw() = default;
-  /// Between outside and the index `n`. Fringes beyond those of the thick order fade: what many
-  /// facets lose together does not follow them.
+  /// Between outside and the index `n`.
   FilmLaw(const Film<R>& outside, R n, bool thin, SharedFilms<R>& shared) {
     const R near = std::min(n, R(1)), far = std::max(n, R(1));
     const Film<R> film = outside.in(near);

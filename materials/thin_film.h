@@ -28,6 +28,13 @@ inline R root_above(R x) {
 }
 }  // namespace detail
 
+/// What is left of fringes, in [0, 1], where there are so many `more` than do not fade to the mean
+/// of films of all thicknesses.
+template <class R>
+inline R faded(R more) {
+  return more > 0 ? std::exp(-more * more) : R(1);
+}
+
 /// Lengths of one wavelength.
 template <class R>
 struct Film {
@@ -53,6 +60,8 @@ struct Film {
 
   /// Whether there is one.
   bool there() const { return phases > 0; }
+  /// How thick it is, in waves of where the index is 1.
+  R waves() const { return phases / (2 * kPi<R>); }
   bool operator==(const Film&) const = default;
 
   /// Of light at the cosine of incidence `c` in [0, 1], between `near` and `far`, which is real or
