@@ -72,9 +72,10 @@ inline void for_each_on_hemisphere(int parts, const Visit& visit) {
 template <class R>
 class FacesAlong;
 
-/// What a coat reflects by: an interface, or one under a film. More fringes than one fade, to the
-/// mean of films of all thicknesses: few points see what E and T are (materials/under_coats.h), and
-/// films of that thickness, which is not even to a wave, look so.
+/// What a coat reflects by: an interface, or one under a film. More fringes than one, and those of
+/// films of more than two waves of where the index is 1, fade to the mean of films of all
+/// thicknesses: few points see what E and T are (materials/under_coats.h), and films of that
+/// thickness, which is not even to a wave, look so.
 template <class R>
 struct Face {
   R eta{1};  ///< index below over index above
@@ -82,10 +83,7 @@ struct Face {
 
   Face(R index, const Film<R>& above = {}) : eta(index), film(above) {}
 
-  R contrast() const {
-    const R more = std::max(film.fringes - 1, R(0));
-    return more > 0 ? std::exp(-more * more) : R(1);
-  }
+  R contrast() const { return faded(std::max(film.fringes - 1, film.waves() - 2)); }
   R reflected(R z) const { return FacesAlong<R>(z).split(*this).reflected; }
   /// Rules that see each fringe of a film that is left.
   int parts() const { return 2 + int(std::min(film.fringes, R(4))); }

@@ -52,7 +52,7 @@
 /// Under a film, of `film_mix(base, coat, ior, film_ior, thickness, wavelength)`, E is what film
 /// and interface reflect (materials/coat.h), and g and h are solved for too. Mattes, round facets
 /// and `glossy` in it and under it keep their energy within 1e-4 where it is up to 1.2 waves thick,
-/// 3e-4 up to 2, 4e-3 up to 8 and 1e-4 above. Of stretched facets what films change is known of
+/// 3e-4 up to 2, 1e-3 up to 4 and 1e-4 above. Of stretched facets what films change is known of
 /// first order: under films of up to 1500 nm they are within 5e-4 at anisotropy 0.5 and 2e-3 at
 /// 0.9, in such a coat within 3e-3 and 1.5e-2, on average 2e-4 and 6e-4.
 ///
