@@ -68,6 +68,7 @@ struct FilmFace {
     return outside ? films[j].split(c, R(1), eta) : films[j].split(c, 1 / eta, R(1));
   }
   FresnelSplit<R> facet(int j, R c, R eta, bool outside) const {
+    if (thin) return split(j, c, eta, outside);
     const R n = outside ? eta : 1 / eta, lower = std::min(n, R(1));
     const Film<R> film = films[j].in(lower);
     const R contrast = film_contrast(film);
