@@ -137,6 +137,7 @@ class Bsdf {
     bool any = false;                  ///< the hero has something to choose from
     Frames<R> frames;                  ///< of parts
     PerNode<Spectrum<R>> scaling;      ///< g along `wo`, of lobes known under coats or in one
+    PerNode<Spectrum<R>> tilted;       ///< of those in a `tilt`, what r is at most along `wi`
     PerNode<FacetsSeen<R>> seen;       ///< what models with a function `solved` said of `wo`
 
     // Kept while the material is the same, but for what coats do along `wo`; where there is more

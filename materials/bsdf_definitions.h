@@ -56,6 +56,15 @@ inline bool knows_coats(const M& model) {
     return false;
 }
 
+/// What the model's lobe is around, where light is seen along `w`.
+template <class M, class R>
+inline Vec3<R> middle(const M&, Vec3<R> w) {
+  if constexpr (requires { M::unfolded(w); })
+    return M::unfolded(mirrored(w));
+  else
+    return mirrored(w);
+}
+
 /// Remembers what the model of node `i` is, and along `wo`, in its frame, if it is more than its
 /// numbers.
 template <class R, class M>
@@ -265,11 +274,17 @@ void Bsdf<R>::choose(Vec3<R> wo, Choice& choice) const {
     const Vec3<R> w = choice.frames.seen(i, wo);
     with_model(i, 0, [&](const auto& model) {
       if constexpr (requires { model.coated(w); }) {
-        if (!detail::is_specular(model))
-          choice.scaling.of[i] =
-              coated_scaling(choice.coats, above, choice.solution(i), model.coated(w),
-                             above.coated() ? choice.coats[above.base].through_o : Spectrum<R>(),
-                             std::abs(choice.frames.seen(above.upright(), wo).z), false);
+        if (detail::is_specular(model)) return 0;
+        const CoatedLobe<R> lobe = model.coated(w);
+        choice.scaling.of[i] =
+            coated_scaling(choice.coats, above, choice.solution(i), lobe,
+                           {above.coated() ? choice.coats[above.base].through_o : Spectrum<R>(R(1)),
+                            std::abs(choice.frames.seen(above.upright(), wo).z)});
+        if (!above.tilted) return 0;
+        const Vec3<R> middle = choice.frames.unseen(i, detail::middle(model, w));
+        choice.tilted.of[i] =
+            tilted_share(choice.coats, above, lobe, {choice.coats, choice.frames, above, middle});
+        for (int j = 0; j < kWavelengths; ++j) choice.scaling.of[i][j] /= choice.tilted.of[i][j];
       } else if constexpr (requires { model.coated(w, 0); }) {
         if (!detail::is_specular(model) && above.once_base >= 0)
           choice.scaling.of[i] = bent_scaling(choice.coats, above, choice.solution(i), model, w);
@@ -457,8 +472,10 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
           if (above.any()) {
             const CoatedLobe<R> lobe = model.coated(choice.frames.seen(i, wi));
             const R z = std::abs(choice.frames.seen(above.upright(), wi).z);
-            total.f += l.f * coated(w.bare, coated_scaling(choice.coats, above, choice.solution(i),
-                                                           lobe, w.through_i, z, true));
+            total.f +=
+                l.f * coated(w.bare, coated_scaling(choice.coats, above, choice.solution(i), lobe,
+                                                    {w.through_i, z},
+                                                    above.tilted ? &choice.tilted.of[i] : nullptr));
             return 0;
           }
         } else if constexpr (requires { model.coated(wi, 0); }) {
@@ -576,9 +593,9 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u,
         weight = glass_weight(weights.of[i], choice.coats[above.once_base],
                               choice.glass.of[above.once_base], wo, s.wi);
       else
-        weight =
-            delta_weight(weight, choice.coats, above, std::abs(choice.frames.seen(upright, wo).z),
-                         std::abs(choice.frames.seen(upright, s.wi).z));
+        weight = delta_weight(weights.of[i], choice.coats, above,
+                              std::abs(choice.frames.seen(upright, wo).z),
+                              std::abs(choice.frames.seen(upright, s.wi).z));
     }
     for (int j = 0; j < kWavelengths; ++j) {
       if (!reflect && t.eta[j] != eta) continue;

@@ -129,8 +129,10 @@ inline void weigh_fresnel_mix(const CoatAbove<R>& mix, const CoatNumbers<R>& num
     const R both = mix.through_o[j] * base.through_i[j];
     base.lambert[j] = mix.mean[j] > 0 ? base.bare[j] * both / mix.mean[j] : R(0);
     base.crossing[j] = mix.nested[j] ? w.crossing[j] : w.other[j];
-    // Lobes that are known get their factor themselves.
-    reflects[j] = mix.kind.known && eta > 1 ? R(1) : std::min(o.reflected[j], i.reflected[j]);
+    // Lobes that are known get their factor themselves; mirrors, that of where light is seen.
+    reflects[j] = mix.kind.polished           ? o.reflected[j]
+                  : mix.kind.known && eta > 1 ? R(1)
+                                              : std::min(o.reflected[j], i.reflected[j]);
     if (wo.z < 0 && eta > 1) reflects[j] *= 1 - mix.glass[j];
   }
   coat = w * reflects;
@@ -236,29 +238,32 @@ inline Spectrum<R> glass_weight(const NodeWeight<R>& w, const CoatAbove<R>& coat
   return f;
 }
 
-/// The factor for deltas that reflect, from that of their node, for directions whose |cosines|
-/// about the normal of the coats are `cos_o` and `cos_i`.
-template <class R>
-inline Spectrum<R> delta_weight(const Spectrum<R>& other, const CoatTree<R>& coats,
-                                const NodeAbove& above, R cos_o, R cos_i) {
-  if (above.part_of < 0) return other;
-  const CoatNumbers<R>& coat = coats.numbers(above.part_of);
-  Spectrum<R> f = other;
-  CoatDirection<R> along_o(std::min(cos_o, R(1))), along_i(std::min(cos_i, R(1)));
-  for (int j = 0; j < kWavelengths; ++j) {
-    if (!(coat.eta[j] > 1)) continue;
-    const CoatShape<R> shape = coat.of(j, {});
-    f[j] *= std::min(shape.split(along_o, coat.face(j)).reflected,
-                     shape.split(along_i, coat.face(j)).reflected);
-  }
-  return f;
-}
-
 /// Whether at wavelength j the coats above a known lobe count together, with what it is a part of.
 template <class R>
 inline bool counts_together(const CoatTree<R>& coats, const NodeAbove& above, int j) {
   return above.coated() && coats.numbers(above.base).eta[j] > 1 &&
          (above.part_of < 0 || coats.numbers(above.part_of).eta[j] > 1);
+}
+
+/// The factor for deltas that reflect, from those of their node, for directions whose |cosines|
+/// about the normal of the coats are `cos_o` and `cos_i`.
+template <class R>
+inline Spectrum<R> delta_weight(const NodeWeight<R>& w, const CoatTree<R>& coats,
+                                const NodeAbove& above, R cos_o, R cos_i) {
+  Spectrum<R> f = w.other;
+  if (above.tilted)
+    for (int j = 0; j < kWavelengths; ++j)
+      if (counts_together(coats, above, j)) f[j] = w.bare[j] * coats[above.base].through_o[j];
+  if (above.part_of < 0) return f;
+  const CoatNumbers<R>& coat = coats.numbers(above.part_of);
+  CoatDirection<R> along_o(std::min(cos_o, R(1))), along_i(std::min(cos_i, R(1)));
+  for (int j = 0; j < kWavelengths; ++j) {
+    if (!(coat.eta[j] > 1)) continue;
+    const CoatShape<R> shape = coat.of(j, {});
+    const R along = shape.split(along_o, coat.face(j)).reflected;
+    f[j] *= above.tilted ? along : std::min(along, shape.split(along_i, coat.face(j)).reflected);
+  }
+  return f;
 }
 
 /// G^2 of a lobe below several coats without their films, or as a part of a lower one, as the
@@ -325,45 +330,121 @@ class SquaredUnderCoats {
   int last_ = -1;  ///< the wavelength that these are of
 };
 
+/// What the coats of a lobe are to it along one direction.
+template <class R>
+struct CoatsSeen {
+  Spectrum<R> through{R(1)};  ///< what those above that count together let through
+  R z{1};                     ///< |cosine| about the normal of what it is a part of
+
+  CoatsSeen(const Spectrum<R>& all, R cosine) : through(all), z(cosine) {}
+  CoatsSeen(const CoatTree<R>& coats, const Frames<R>& frames, const NodeAbove& above, Vec3<R> w)
+      : z(std::abs(frames.seen(above.upright(), w).z)) {
+    std::bitset<kWavelengths> together;
+    together.set();
+    for (int one = above.base; one >= 0 && together.any(); one = coats[one].upper) {
+      const CoatAlong<R> along(coats.numbers(one), std::abs(frames.seen(one, w).z));
+      for (int j = 0; j < kWavelengths; ++j) {
+        if (together[j]) through[j] *= along.through[j];
+        together[j] = together[j] && coats[one].nested[j];
+      }
+    }
+  }
+};
+
+/// What a known lobe is to reflect at one wavelength.
+template <class R>
+struct CoatedShare {
+  R reflected, through;  ///< E and T, about its own normal
+  R share;               ///< T E; of what is tilted, that about the normals of the coats
+};
+
+/// That of a lobe of a coat or below one, at each wavelength in turn.
+template <class R>
+class CoatedShares {
+ public:
+  CoatedShares(const CoatTree<R>& coats, const NodeAbove& above, const CoatedLobe<R>& lobe,
+               const CoatsSeen<R>& seen)
+      : coats_(coats),
+        above_(above),
+        lobe_(lobe),
+        seen_(seen),
+        broad_(above.part_of >= 0 ? lobe.broad() : Broadness<R>{}),
+        along_(lobe.z) {}
+
+  bool part() const { return above_.part_of >= 0; }
+  const CoatNumbers<R>& coat() const {
+    return coats_.numbers(part() ? above_.part_of : above_.base);
+  }
+  CoatShape<R> shape(int j) const { return part() ? coat().of(j, broad_) : coat().shape[j]; }
+  /// Whether there is one.
+  bool known(int j) const {
+    return part() ? coat().eta[j] > 1 : counts_together(coats_, above_, j);
+  }
+  CoatedShare<R> at(int j, const CoatShape<R>& shape) {
+    const bool together = counts_together(coats_, above_, j);
+    const R e = part() ? shape.split(along_, coat().face(j)).reflected : R(1);
+    const R t = together ? seen_.through[j] : R(1);
+    if (!above_.tilted) return {e, t, e * t};
+    const R share = part() ? t * shape.split(std::min(seen_.z, R(1)), coat().face(j)).reflected : t;
+    return {e, together ? split_together(coats_, above_.base, j, lobe_.z).transmitted : R(1),
+            share};
+  }
+
+ private:
+  const CoatTree<R>& coats_;
+  const NodeAbove& above_;
+  const CoatedLobe<R>& lobe_;
+  const CoatsSeen<R>& seen_;
+  Broadness<R> broad_;
+  CoatDirection<R> along_;
+};
+
+/// r of what is tilted along a direction, at most 1.
+template <class R>
+inline Spectrum<R> tilted_share(const CoatTree<R>& coats, const NodeAbove& above,
+                                const CoatedLobe<R>& lobe, const CoatsSeen<R>& seen) {
+  CoatedShares<R> shares(coats, above, lobe, seen);
+  Spectrum<R> r{R(1)};
+  for (int j = 0; j < kWavelengths; ++j) {
+    if (!shares.known(j)) continue;
+    const CoatedShare<R> s = shares.at(j, shares.shape(j));
+    if (s.share < s.reflected * s.through)
+      r[j] = std::max(s.share / (s.reflected * s.through), R(1e-6));
+  }
+  return r;
+}
+
 /// g of materials/coated.h along one direction, of a lobe that is known below a coat or as a part
-/// of one; 1 where no more is known. `through` is what the coats above that count together let
-/// through there, `z` the |cosine| about their normal, `under` what is solved for the lobe
-/// (is_solved_for). What is tilted gets min(1, r) along wi.
+/// of one; 1 where no more is known. `under` is what is solved for the lobe (is_solved_for); `most`
+/// what r is at most, if it is.
 template <class R>
 inline Spectrum<R> coated_scaling(const CoatTree<R>& coats, const NodeAbove& above,
                                   const UnderCoats<R>* under, const CoatedLobe<R>& lobe,
-                                  const Spectrum<R>& through, R z, bool is_wi) {
-  const bool part = above.part_of >= 0;
-  const CoatNumbers<R>& coat = coats.numbers(part ? above.part_of : above.base);
+                                  const CoatsSeen<R>& seen, const Spectrum<R>* most = nullptr) {
+  CoatedShares<R> shares(coats, above, lobe, seen);
+  const CoatNumbers<R>& coat = shares.coat();
   std::optional<SquaredUnderCoats<R>> squared_under;
   if (under) squared_under.emplace(coats, above, *under, lobe);
   Spectrum<R> g{R(1)};
-  const Broadness<R> broad = part ? lobe.broad() : Broadness<R>{};
-  CoatDirection<R> direction(lobe.z);
   bool known = false, solved = false;
   for (int j = 0; j < kWavelengths; ++j) {
     const bool was_known = known, was_solved = solved;
-    const R eta = coat.eta[j];
-    const bool together = counts_together(coats, above, j);
-    known = part ? eta > 1 : together;
-    solved = coat.films[j].there() || (part ? together : coats[above.base].nested[j]);
+    known = shares.known(j);
+    solved = coat.films[j].there() ||
+             (shares.part() ? counts_together(coats, above, j) : coats[above.base].nested[j]);
     if (!known) continue;
     if (was_known && solved == was_solved && coat.repeated(j) && (!solved || under->repeated(j))) {
       g[j] = g[j - 1];
       continue;
     }
-    const CoatShape<R> shape = part ? coat.of(j, broad) : coat.shape[j];
-    const R e = part ? shape.split(direction, coat.face(j)).reflected : R(1);
-    R t = together ? through[j] : R(1), share = e * t;
-    if (above.tilted) {
-      if (part) share = t * shape.split(std::min(z, R(1)), coat.face(j)).reflected;
-      if (together) t = split_together(coats, above.base, j, lobe.z).transmitted;
-      if (is_wi) share = std::min(share, e * t);
-    }
-    const R squared = solved ? squared_under->at(j, t, e)
-                      : part ? lobe.as_coat(eta, e)
-                             : lobe.below(eta, shape, t);
-    g[j] = squared > 0 ? share / std::sqrt(squared) : R(0);
+    const R eta = coat.eta[j];
+    const CoatShape<R> shape = shares.shape(j);
+    CoatedShare<R> s = shares.at(j, shape);
+    if (most) s.share = std::min(s.share, (*most)[j] * s.reflected * s.through);
+    const R squared = solved          ? squared_under->at(j, s.through, s.reflected)
+                      : shares.part() ? lobe.as_coat(eta, s.reflected)
+                                      : lobe.below(eta, shape, s.through);
+    g[j] = squared > 0 ? s.share / std::sqrt(squared) : R(0);
   }
   return g;
 }
@@ -379,7 +460,7 @@ inline Spectrum<R> bent_scaling(const CoatTree<R>& coats, const NodeAbove& above
       Spectrum<R> through;
       for (int k = 0; k < kWavelengths; ++k)
         through[k] = split_together(coats, above.base, k, lobe.z).transmitted;
-      of_index = coated_scaling(coats, above, under, lobe, through, lobe.z, false);
+      of_index = coated_scaling(coats, above, under, lobe, {through, lobe.z});
     }
     g[j] = of_index[j];
   });
