@@ -594,8 +594,7 @@ std::optional<BsdfSample<R>> Bsdf<R>::sample_specular(int lobe, Vec3<R> wo, R u,
                               choice.glass.of[above.once_base], wo, s.wi);
       else
         weight = delta_weight(weights.of[i], choice.coats, above,
-                              std::abs(choice.frames.seen(upright, wo).z),
-                              std::abs(choice.frames.seen(upright, s.wi).z));
+                              std::abs(choice.frames.seen(upright, wo).z));
     }
     for (int j = 0; j < kWavelengths; ++j) {
       if (!reflect && t.eta[j] != eta) continue;

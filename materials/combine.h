@@ -35,12 +35,14 @@
 /// base is 1 exactly; but near grazing a broad coat of which no more is known loses much: min(F,
 /// F') is small where F' is.
 ///
-/// Known lobes in a `tilt` get g and h as if the coats were tilted with them, times r(wo) min(1,
-/// r(wi)), where r is T, E or T E about the coats' normal over the same about the lobe's own. So
-/// they are lit and seen through the coats that there are, reflect T, E or T E at most, and little
-/// less where the tilt is little; so do those below or in a coat in it. Other lobes get min(T, T')
+/// Known lobes in a `tilt` get g and h as if the coats were tilted with them, times
+///   r(wo) min(r(wi), m) / m     r is T, E or T E about the coats' normal over the same about the
+///                               lobe's own, m = min(1, r) of what wo's lobe is around
+/// so that they reflect as much of T, E or T E as they reflect of all light without coats, or
+/// little less, and never more, and are lit and seen through the coats that there are. Mirrors get
+/// T, E or T E along wo. So do those below or in a coat in a `tilt`. Other lobes get min(T, T')
 /// there too, but for Lambert's: their factor never gains, as about any other normal more of the
-/// lobe is where less is let through.
+/// lobe is where less is let through. As without coats none of that is reciprocal.
 ///
 /// Where a coat lies right under another, as plastic under varnish, and so on, T is the product of
 /// all coats above, and a lobe of a coat below others gets E of its coat times their T: g and h are
@@ -245,24 +247,20 @@ inline bool counts_together(const CoatTree<R>& coats, const NodeAbove& above, in
          (above.part_of < 0 || coats.numbers(above.part_of).eta[j] > 1);
 }
 
-/// The factor for deltas that reflect, from those of their node, for directions whose |cosines|
-/// about the normal of the coats are `cos_o` and `cos_i`.
+/// The factor for deltas that reflect, from those of their node, for a direction whose |cosine|
+/// about the normal of the coats is `cos_o`. Where all is one frame it is the same along wi.
 template <class R>
 inline Spectrum<R> delta_weight(const NodeWeight<R>& w, const CoatTree<R>& coats,
-                                const NodeAbove& above, R cos_o, R cos_i) {
+                                const NodeAbove& above, R cos_o) {
   Spectrum<R> f = w.other;
   if (above.tilted)
     for (int j = 0; j < kWavelengths; ++j)
       if (counts_together(coats, above, j)) f[j] = w.bare[j] * coats[above.base].through_o[j];
   if (above.part_of < 0) return f;
   const CoatNumbers<R>& coat = coats.numbers(above.part_of);
-  CoatDirection<R> along_o(std::min(cos_o, R(1))), along_i(std::min(cos_i, R(1)));
-  for (int j = 0; j < kWavelengths; ++j) {
-    if (!(coat.eta[j] > 1)) continue;
-    const CoatShape<R> shape = coat.of(j, {});
-    const R along = shape.split(along_o, coat.face(j)).reflected;
-    f[j] *= above.tilted ? along : std::min(along, shape.split(along_i, coat.face(j)).reflected);
-  }
+  CoatDirection<R> along(std::min(cos_o, R(1)));
+  for (int j = 0; j < kWavelengths; ++j)
+    if (coat.eta[j] > 1) f[j] *= coat.of(j, {}).split(along, coat.face(j)).reflected;
   return f;
 }
 

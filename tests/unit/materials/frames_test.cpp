@@ -278,6 +278,21 @@ TEST_CASE("a tilted Lambert lobe keeps its light but for what leaves to a back")
   }
 }
 
+/// What is lost of samples of a white `m`, on its reflecting side.
+void add_lost(stats::Moments& lost, const Material& m, Vec3d wo) {
+  const materials::Layout layout = m.layout();
+  const auto p = m.params<double>();
+  const Bsdf<double> bsdf(layout, p.data());
+  const auto choice = bsdf.choose(wo);
+  stats::Random random(5);
+  constexpr int kSamples = kSanitized ? 100 : 2000;
+  for (int i = 0; i < kSamples; ++i) {
+    const double u = (i + random.next()) / kSamples, u1 = random.next(), u2 = random.next();
+    const auto s = bsdf.sample(wo, u, u1, u2, Mode::Radiance, choice);
+    lost.add(s ? 1 - s->f[0] * s->wi.z / s->pdf[0] : 1);
+  }
+}
+
 TEST_CASE("nothing that is tilted below coats is brighter than what lights it") {
   const Material bases[] = {
       matte(1),  glossy(1, 30),         microfacet(1, 0.4, 0.6),
@@ -310,6 +325,56 @@ TEST_CASE("nothing that is tilted below coats is brighter than what lights it") 
         }
       }
   MESSAGE("largest albedo ", most);
+}
+
+TEST_CASE("bumps below coats and in them lose hardly more than without coats") {
+  const Material metals[] = {microfacet(1, 0.1), microfacet(1, 0.3), microfacet(1, 0.6),
+                             microfacet(1, 0.3, 0.8), glossy(1, 30)};
+  struct Row {
+    double slope, bound;
+  };
+  for (const Row& row : {Row{0.1, 0.015}, Row{0.3, 0.04}}) {
+    double most = 0;
+    for (const Material& metal : metals)
+      for (const double degrees : {0.0, 30.0, 60.0, 75.0, 85.0}) {
+        stats::Moments lost, below, below_rough, part;
+        for (const double turn : {0.3, 1.9, 3.6, 5.2}) {
+          const Material bumpy =
+              tilt(metal, row.slope * std::cos(turn), row.slope * std::sin(turn));
+          const Vec3d wo = direction(degrees, 0.4);
+          add_lost(lost, bumpy, wo);
+          add_lost(below, coat(mirror(1), bumpy, 0, 0, 1.5), wo);
+          add_lost(below_rough, coat(microfacet(1, 0.4), bumpy, 0, 0, 1.5), wo);
+          add_lost(part, coat(bumpy, matte(1), 0, 0, 1.5), wo);
+        }
+        for (const stats::Moments& coated : {below, below_rough, part}) {
+          const double more = coated.mean - lost.mean;
+          most = std::max(most, more);
+          CHECK(more < row.bound + 5 * (coated.standard_error() + lost.standard_error()));
+        }
+      }
+    MESSAGE("slope ", row.slope, ": lost more in and below coats, at most ", most);
+  }
+}
+
+TEST_CASE("bumpy mirrors below coats and in them lose nothing") {
+  for (const Material& m :
+       {coat(mirror(1), tilt(mirror(1), 0.2, -0.3), 0, 0, 1.5),
+        coat(tilt(mirror(1), 0.3, 0.1), tilt(mirror(1), -0.3, 0.1), 0, 0, 1.7),
+        coat(mirror(1), coat(tilt(mirror(1), 0.1, 0), tilt(mirror(1), 0, 0.2), 0, 0, 1.3), 0, 0,
+             1.5)}) {
+    const materials::Layout layout = m.layout();
+    const auto p = m.params<double>();
+    const Bsdf<double> bsdf(layout, p.data());
+    for (const double degrees : {0.0, 30.0, 60.0, 75.0, 85.0, 89.0}) {
+      const Vec3d wo = direction(degrees, 0.9);
+      for (const double u : {0.01, 0.3, 0.6, 0.99}) {
+        const auto s = bsdf.sample(wo, u, 0.5, 0.5, Mode::Radiance);
+        REQUIRE(s.has_value());
+        CHECK(s->f[0] * s->wi.z / s->pdf[0] == doctest::Approx(1).epsilon(1e-9));
+      }
+    }
+  }
 }
 
 TEST_CASE("what is hardly tilted in and below coats keeps its energy") {
