@@ -86,7 +86,7 @@ void Parser::import() {
   if (at(Tok::StringLiteral))
     i.file = string_value(text(take()));
   else
-    unexpected("the name of a file, in quotes,");
+    unexpected("the name of a file in quotes");
   if (accept(Tok::KwAs)) i.as = name("a name after `as`");
   semicolon();
   i.span = from(begin);

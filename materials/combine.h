@@ -40,9 +40,9 @@
 ///                               lobe's own, m = min(1, r) of what wo's lobe is around
 /// so that they reflect as much of T, E or T E as they reflect of all light without coats, or
 /// little less, and never more, and are lit and seen through the coats that there are. Mirrors get
-/// T, E or T E along wo. So do those below or in a coat in a `tilt`. Other lobes get min(T, T')
-/// there too, but for Lambert's: their factor never gains, as about any other normal more of the
-/// lobe is where less is let through. As without coats none of that is reciprocal.
+/// T, E or T E along wo, and glass T. So do those below or in a coat in a `tilt`. Other lobes get
+/// min(T, T') there too, but for Lambert's: their factor never gains, as about any other normal
+/// more of the lobe is where less is let through. As without coats none of that is reciprocal.
 ///
 /// Where a coat lies right under another, as plastic under varnish, and so on, T is the product of
 /// all coats above, and a lobe of a coat below others gets E of its coat times their T: g and h are
@@ -247,15 +247,24 @@ inline bool counts_together(const CoatTree<R>& coats, const NodeAbove& above, in
          (above.part_of < 0 || coats.numbers(above.part_of).eta[j] > 1);
 }
 
-/// The factor for deltas that reflect, from those of their node, for a direction whose |cosine|
-/// about the normal of the coats is `cos_o`. Where all is one frame it is the same along wi.
+/// The factor for what reflects or lets through all that T lets it: for mirrors and glass in a
+/// `tilt` T along wo.
 template <class R>
-inline Spectrum<R> delta_weight(const NodeWeight<R>& w, const CoatTree<R>& coats,
-                                const NodeAbove& above, R cos_o) {
+inline Spectrum<R> whole_weight(const NodeWeight<R>& w, const CoatTree<R>& coats,
+                                const NodeAbove& above) {
   Spectrum<R> f = w.other;
   if (above.tilted)
     for (int j = 0; j < kWavelengths; ++j)
       if (counts_together(coats, above, j)) f[j] = w.bare[j] * coats[above.base].through_o[j];
+  return f;
+}
+
+/// The factor for deltas, from those of their node, for a direction whose |cosine| about the normal
+/// of the coats is `cos_o`. Of a coat's own, where all is one frame, it is the same along wi.
+template <class R>
+inline Spectrum<R> delta_weight(const NodeWeight<R>& w, const CoatTree<R>& coats,
+                                const NodeAbove& above, R cos_o) {
+  Spectrum<R> f = whole_weight(w, coats, above);
   if (above.part_of < 0) return f;
   const CoatNumbers<R>& coat = coats.numbers(above.part_of);
   CoatDirection<R> along(std::min(cos_o, R(1)));
