@@ -203,7 +203,7 @@ TEST_CASE("a sample reports what eval and pdf say, and its mean weight is the al
         const double u = random.next(), u1 = random.next(), u2 = random.next();
         const auto s = bsdf.sample(wo, u, u1, u2, Mode::Importance, choice);
         if (!s || s->specular) continue;
-        const auto l = bsdf.evaluate(wo, s->wi, Mode::Importance);
+        const auto l = bsdf.evaluate(wo, s->wi, Mode::Importance, choice);
         wrong += !(s->f == l.f) + !(s->pdf == l.pdf) + (s->transmitted != (s->wi.z * wo.z < 0));
       }
       CHECK_MESSAGE(wrong == 0, c.name, " at ", degrees);

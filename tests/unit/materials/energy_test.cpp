@@ -236,6 +236,11 @@ void exchanged(const Case& c, int pairs, const Visit& visit) {
   const materials::Layout layout = c.material.layout();
   const auto p = c.material.params<R>();
   const Bsdf<R> bsdf(layout, p.data());
+  typename Bsdf<R>::Choice choice;  // for a new direction each time, but of one material
+  const auto f = [&](Vec3<R> wo, Vec3<R> wi, Mode mode) {
+    bsdf.choose(wo, choice);
+    return bsdf.evaluate(wo, wi, mode, choice).f;
+  };
   stats::Random random(3);
   if (c.tilted())
     return;  // either direction holds the normal back in its own way (frames_test.cpp)
@@ -244,14 +249,15 @@ void exchanged(const Case& c, int pairs, const Visit& visit) {
     Vec3<R> b(square_to_sphere(random.next(), random.next()));
     if (i % 2) {
       const R u = random.next_float(), u1 = random.next_float();
-      const auto s = bsdf.sample(a, u, u1, random.next_float(), Mode::Radiance);
+      bsdf.choose(a, choice);
+      const auto s = bsdf.sample(a, u, u1, random.next_float(), Mode::Radiance, choice);
       if (!s || s->specular) continue;
       b = s->wi;
     }
     // On one side no index lies between: f itself is symmetric, without its adjoint.
     const bool alike = c.reciprocal() && a.z * b.z > 0;
-    visit(i % 2 == 1, bsdf.eval(a, b, Mode::Radiance),
-          bsdf.eval(b, a, alike ? Mode::Radiance : Mode::Importance));
+    const Spectrum<R> ab = f(a, b, Mode::Radiance);
+    visit(i % 2 == 1, ab, f(b, a, alike ? Mode::Radiance : Mode::Importance));
   }
 }
 

@@ -112,9 +112,12 @@ std::pair<double, double> check_smooth(const std::string& name, const Material& 
   const auto p = m.params<float>();
   const Bsdf<float> bsdf(layout, p.data());
   const Exact exact(m);
+  Bsdf<Real>::Choice choice;  // along any direction
   const auto at = [&](const Coordinates& x, const std::vector<Real>& numbers) -> Pair {
-    const auto l = Bsdf<Real>(exact.layout, numbers.data())
-                       .evaluate({x[0], x[1], x[2]}, {x[3], x[4], x[5]}, Mode::Importance);
+    const Bsdf<Real> moved(exact.layout, numbers.data());
+    const Vec3<Real> wo{x[0], x[1], x[2]};
+    moved.choose(wo, choice);
+    const auto l = moved.evaluate(wo, {x[3], x[4], x[5]}, Mode::Importance, choice);
     return {l.f[0], l.pdf[0]};
   };
   stats::Random random(6);
