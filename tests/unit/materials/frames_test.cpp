@@ -389,7 +389,7 @@ TEST_CASE("bumpy mirrors below coats and in them lose nothing") {
   }
 }
 
-TEST_CASE("what is hardly tilted in and below coats keeps its energy") {
+TEST_CASE("what is hardly tilted in and below coats keeps its energy" * kSum) {
   const auto hardly = [](const Material& m) { return tilt(m, 1e-5, -2e-5); };
   const Material metal = microfacet(1, 0.3), brushed = microfacet(1, 0.4, 0.6);
   for (const Material& m :
