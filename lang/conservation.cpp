@@ -21,13 +21,6 @@ std::string_view head(const MaterialTree& m) {
   return m.row->signature.substr(0, m.row->signature.find('('));
 }
 
-/// Whether all lobes of `m` are of one row.
-bool is_all(const MaterialTree& m, std::string_view row) {
-  return m.children.empty()
-             ? head(m) == row
-             : std::ranges::all_of(m.children, [row](const auto& c) { return is_all(*c, row); });
-}
-
 }  // namespace
 
 double stated_weight(const Module& module, const MaterialTree& m) {
@@ -43,20 +36,17 @@ double stated_weight(const Module& module, const MaterialTree& m) {
   return signature.substr(row.size()).starts_with("(spectrum colour") ? std::max(first, 0.0) : 0;
 }
 
-std::optional<double> lossy_coat_index(const Module& module, const MaterialTree& m) {
+std::optional<double> inverted_coat_index(const Module& module, const MaterialTree& m) {
   const std::string_view row = head(m);
   const bool coat = row == "material coat";
-  if (coat) {
-    const auto index = known_number(module, m.params[2]);
-    const bool exact =
-        is_all(*m.children[0], "material mirror") && is_all(*m.children[1], "material matte");
-    if (index && *index < 1 && !exact) return index;
-  }
   const bool mix = row == "material fresnel_mix" || row == "material film_mix";
   const std::size_t base = coat ? 1 : mix ? 0 : m.children.size();
+  if (coat || mix)
+    if (const auto index = known_number(module, m.params[coat ? 2 : 0]); index && *index < 1)
+      return index;
   for (std::size_t k = 0; k < m.children.size(); ++k)
     if (k != base)
-      if (const auto index = lossy_coat_index(module, *m.children[k])) return index;
+      if (const auto index = inverted_coat_index(module, *m.children[k])) return index;
   return std::nullopt;
 }
 

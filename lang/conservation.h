@@ -18,9 +18,9 @@ std::optional<double> known_number(const Module& module, Ref r);
 /// as 0, so a result above 1 is certain.
 double stated_weight(const Module& module, const MaterialTree& m);
 
-/// The index of a `coat` with no other above it, where that is known and below 1: unless it is a
-/// mirror over `matte`, it loses light (materials/combine.h).
-std::optional<double> lossy_coat_index(const Module& module, const MaterialTree& m);
+/// The index of a coat with no other above it, where that is known and below 1, so that it counts
+/// as its inverse (materials/coat.h).
+std::optional<double> inverted_coat_index(const Module& module, const MaterialTree& m);
 
 /// The one part that the combiner `m` is equal to in every direction, by its constants: a `mix` of
 /// 0 or 1, a factor of 1, a turn or tilt by 0, a coat of index 1 that absorbs nothing, a layer of

@@ -376,7 +376,7 @@ void Elaborator::outputs(ElaboratedDescriptor& e, Scope* scope) {
     constexpr double kRounding = 1e-6;  // of a sum of weights that was meant to be 1
     if (const double w = stated_weight(module, *v.material); w > 1 + kRounding)
       diagnostics_.add(Diag::NonConserving, a->name.span, w);
-    if (const auto index = lossy_coat_index(module, *v.material))
+    if (const auto index = inverted_coat_index(module, *v.material))
       diagnostics_.add(Diag::CoatIndex, a->name.span, *index);
   }
   const std::size_t height = static_cast<std::size_t>(Output::Height),

@@ -222,11 +222,12 @@ struct CoatShape {
 template <class R>
 using Films = std::array<Film<R>, kWavelengths>;
 
-/// A coat at each wavelength. Where its index is not above 1 it counts as a mirror, but below
-/// another coat as one of the inverse index.
+/// A coat at each wavelength. One of an index below 1 counts as one of the inverse, so that nothing
+/// is reflected in full; light that has passed it is bent as the index says, but if nothing is
+/// above it goes straight on.
 template <class R>
 struct CoatNumbers {
-  Spectrum<R> eta{R(1)};  ///< index below over index above, or its inverse
+  Spectrum<R> eta{R(1)};  ///< index below over index above, or its inverse: at least 1
   Films<R> films;
   Spectrum<R> mean{};   ///< of F over the hemisphere; where a film is, if it matters
   Spectrum<R> least{};  ///< |cosine| at which light meets the coat, below others
@@ -241,7 +242,7 @@ struct CoatNumbers {
       // Under a film an index of 1 is a coat like others; on one below there is no film.
       if (films[j].there() && eta[j] < 1 - kNextToOne) films[j] = {};
       if (films[j].there()) eta[j] = std::max(eta[j], 1 + kNextToOne);
-      if (eta[j] < 1 && least[j] > 0) {
+      if (eta[j] < 1) {
         least[j] = std::sqrt(std::max(1 - bent_sine2(j), R(0)));
         eta[j] = 1 / eta[j];
         falls_.set(j);
@@ -302,7 +303,7 @@ struct CoatNumbers {
   R least_below(int j) const {
     return falls_[j] ? least[j] : std::sqrt(std::max(1 - bent_sine2(j), R(0)));
   }
-  /// |Cosine| of light that has passed, from that outside all coats; 0 where none does.
+  /// |Cosine| of light that has passed, from that outside all coats.
   R cosine_inside(int j, R z) const {
     const R most_sine2 = falls_[j] ? (1 - least[j]) * (1 + least[j]) : bent_sine2(j);
     return std::sqrt(std::max(1 - (1 - z) * (1 + z) * most_sine2, R(0)));

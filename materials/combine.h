@@ -12,16 +12,16 @@
 /// directions: exp(-absorption thickness (1 / c + 1 / c')) on `base`, where c^2 = 1 - (1 -
 /// |wo.z|^2) / n^2, c' alike for wi; n is `ior` times that of all coats right above.
 ///
-/// Where the index is above 1, and the coat made of `glossy`, `glossy_product`, `glossy_back`,
-/// `microfacet`, `beckmann`, metals and mirrors, one of them or what `mix`, `scale`, `add` and
-/// `turn` make of several, each of its lobes gets
+/// Where the coat is made of `glossy`, `glossy_product`, `glossy_back`, `microfacet`, `beckmann`,
+/// metals and mirrors, one of them or what `mix`, `scale`, `add` and `turn` make of several, each
+/// of its lobes gets
 ///   coat: h(wo) h(wi)           (materials/coated.h), for its own E; for a delta E itself
 /// so that a white coat reflects E exactly. Of other lobes it is
 ///   coat: min(F, F')            and s is 0: E = F
 ///
-/// Where the index is above 1, facets, all glossy lobes and `rough_matte` right below the coat get
+/// Facets, all glossy lobes and `rough_matte` right below the coat get
 ///   base: g(wo) g(wi)           (materials/coated.h), whose mean over the lobe is T
-/// and Lambert's lobes, whatever the index,
+/// and Lambert's lobes
 ///   base: T T' / mean T         whose integral over wi is exactly T (Kelemen and Szirmay-Kalos
 ///                               2001, where the coat is polished)
 /// so that a lossless base under a lossless coat is 1 in every direction: round facets, `glossy`
@@ -47,9 +47,8 @@
 /// Where a coat lies right under another, as plastic under varnish, and so on, T is the product of
 /// all coats above, and a lobe of a coat below others gets E of its coat times their T: g and h are
 /// then solved for (materials/under_coats.h), however many there are, within 1e-4; where facets of
-/// anisotropy 0.9 are part of two, 3e-4. There an index may be below 1 too, as of water under
-/// varnish (materials/coat.h); of the uppermost coat that is seen to lose, up to 0.6, and never to
-/// gain. A coat whose index is 1 at every wavelength is not there.
+/// anisotropy 0.9 are part of two, 3e-4. An index below 1, as of water under varnish, counts as its
+/// inverse (materials/coat.h), and a coat whose index is 1 at every wavelength is not there.
 ///
 /// Under a film, of `film_mix(base, coat, ior, film_ior, thickness, wavelength)`, E is what film
 /// and interface reflect (materials/coat.h), and g and h are solved for too. Mattes, round facets
@@ -58,9 +57,9 @@
 /// first order: under films of up to 1500 nm they are within 5e-4 at anisotropy 0.5 and 2e-3 at
 /// 0.9, in such a coat within 3e-3 and 1.5e-2, on average 2e-4 and 6e-4.
 ///
-/// Where the index is above 1, interfaces right below the coat, or below several, get what passes
-/// it once if light changes sides, twice if it stays outside, and never if it stays inside, along
-/// the directions outside; the same of the layer of a `coat`. The coat sends back the rest
+/// Interfaces right below the coat, or below several, get what passes it once if light changes
+/// sides, twice if it stays outside, and never if it stays inside, along the directions outside;
+/// the same of the layer of a `coat`. The coat sends back the rest
 /// (materials/glass_coat.h), and seen from inside nothing else:
 ///   base: T(outside), T T' / M, or 1      M the most that T is: mostly along the normal
 /// so that lossless glass is 1 from both sides: smooth 1e-5 (`dielectric`, `beckmann_dielectric`,

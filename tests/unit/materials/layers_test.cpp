@@ -242,6 +242,30 @@ TEST_CASE("a layer below coats is crossed as Snell's law has it, through all of 
       }
 }
 
+TEST_CASE("a coat of an index below 1 with none above reflects as its inverse, and bends nothing") {
+  const double ior = 0.75, depth = 0.7;
+  const auto value = [](const Material& m, Vec3d o, Vec3d i) {
+    const materials::Layout layout = m.layout();
+    const auto p = m.params<double>();
+    return Bsdf<double>(layout, p.data()).eval(o, i, Mode::Radiance)[0];
+  };
+  for (const Material& top : {mirror(1), microfacet(1, 0.4), tinted(Lobe::Ward, 1, {0.3, 0})})
+    for (const Material& base : {matte(0.8), beckmann(1, 0.5, 0.3), dielectric(1.5, 0.4)})
+      for (const double degrees : {10.0, 60.0, 85.0, 130.0})  // beyond the critical angle too
+        for (const double there : {30.0, 80.0, 150.0}) {
+          const Vec3d o = direction(degrees, 0.4), i = direction(there, 3);
+          const double of_inverse = value(fresnel_mix(base, top, 1 / ior), o, i);
+          CHECK(value(fresnel_mix(base, top, ior), o, i) ==
+                doctest::Approx(of_inverse).epsilon(1e-12));
+        }
+  for (const double degrees : {10.0, 60.0, 85.0}) {
+    const Vec3d o = direction(degrees, 0.4), i = direction(35, 3);
+    const double layers = std::exp(-depth * (1 / o.z + 1 / i.z));
+    CHECK(value(coat(mirror(1), matte(0.8), depth, 1, ior), o, i) ==
+          doctest::Approx(value(coat(mirror(1), matte(0.8), 0, 0, ior), o, i) * layers));
+  }
+}
+
 TEST_CASE("turned glossy lobes are the mirrored one") {
   const auto value = [](Lobe lobe, Vec3d o, Vec3d i) {
     const Material m = tinted(lobe, 1, {30, 80});
