@@ -25,7 +25,7 @@ namespace {
 double deltas(const Material& m, Vec3d wo, bool reflected = true) {
   const materials::Layout layout = m.layout();
   const auto p = m.params<double>();
-  const auto [here, across] = test::deltas(Bsdf<double>(layout, p.data()), wo);
+  const auto [here, across] = test::deltas(layout, p.data(), wo);
   return (reflected ? here : 0) + across;
 }
 
@@ -207,8 +207,8 @@ double rough_albedo(const Material& m, double glass, double roughness, double an
   const bool outside = wo.z > 0;
   double sum = deltas(m, wo);
   // Lobes of coats are about where glass reflects to.
-  if (outside) sum += hemisphere(bsdf, wo, true, wo.z * wo.z, 14);
-  if (roughness == 0) return sum + (outside ? 0 : hemisphere(bsdf, wo, false, wo.z * wo.z, 14));
+  if (outside) sum += hemisphere(bsdf, wo, true, wo.z * wo.z, 5);
+  if (roughness == 0) return sum + (outside ? 0 : hemisphere(bsdf, wo, false, wo.z * wo.z, 5));
   const auto alpha = materials::Alpha<double>::from(roughness, anisotropy);
   const auto weight = [&](Vec3d wi) {
     return wi.z > 0 ? 1 : through(outside ? wo.z : wi.z);  // of inside to inside

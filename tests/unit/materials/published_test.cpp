@@ -285,7 +285,7 @@ void check_metal(const std::string& name, Material (*make)(double roughness),
     for (double degrees : {0.0, 30.0, 60.0, 85.0}) {
       if (kSanitized && degrees != 60) continue;
       const Vec3d o = direction(degrees, 0);
-      const double a = albedo(m, degrees, 0, 16), expected = metal.albedo(o),
+      const double a = albedo(m, degrees, 0, 6), expected = metal.albedo(o),
                    more = metal.further(1) - metal.further(-1),
                    bound = Metal<Facets>::kLossError + metal.loss(o.z) * more / 2;
       off = std::max(off, std::abs(a - expected));

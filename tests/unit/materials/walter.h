@@ -167,7 +167,7 @@ double glass_albedo(const Material& m, const Facets& facets, double ior, Vec3d w
     }
   }
   const auto asked = [&](Vec3d w) { return far && w.z > 0 ? 0.0 : weight(w); };
-  return face.once(up, kSanitized ? 100 : 200, asked) + rest;
+  return face.once(up, kSanitized ? 100 : 150, asked) + rest;
 }
 
 }  // namespace mms::test
