@@ -18,6 +18,14 @@ namespace {
 using Ld = long double;
 using C = std::complex<Ld>;
 
+double value(const Material& m, Vec3d o, Vec3d i, Mode mode = Mode::Radiance) {
+  const materials::Layout layout = m.layout();
+  const auto p = m.params<double>();
+  return Bsdf<double>(layout, p.data()).eval(o, i, mode)[0];
+}
+
+double importance(const Material& m, Vec3d o, Vec3d i) { return value(m, o, i, Mode::Importance); }
+
 /// Reflectance by the characteristic matrix of the film (Born and Wolf, 1.6.2), in the angle of
 /// cosine `c` and the index of `near`; `phases` is 2 pi thickness / wavelength.
 Ld matrix_oracle(Ld c, Ld near, C film, C base, Ld phases) {
@@ -199,11 +207,6 @@ TEST_CASE("a coat dims its base by its two ways through the layer") {
   const Material clear = coat(mirror(1), matte(0.8), 0, 1, ior);
   const Material plain = fresnel_mix(matte(0.8), mirror(1), ior);
   const Material dim = coat(mirror(1), matte(0.8), 0.35, 2, ior);
-  const auto value = [](const Material& m, Vec3d o, Vec3d i) {
-    const materials::Layout layout = m.layout();
-    const auto p = m.params<double>();
-    return Bsdf<double>(layout, p.data()).eval(o, i, Mode::Radiance)[0];
-  };
   for (double a : {0.0, 50.0, 89.0})
     for (double b : {20.0, 80.0}) {
       const Vec3d o = direction(a, 0), i = direction(b, 2);
@@ -244,11 +247,6 @@ TEST_CASE("a layer below coats is crossed as Snell's law has it, through all of 
 
 TEST_CASE("a coat of an index below 1 with none above reflects as its inverse, and bends nothing") {
   const double ior = 0.75, depth = 0.7;
-  const auto value = [](const Material& m, Vec3d o, Vec3d i) {
-    const materials::Layout layout = m.layout();
-    const auto p = m.params<double>();
-    return Bsdf<double>(layout, p.data()).eval(o, i, Mode::Radiance)[0];
-  };
   for (const Material& top : {mirror(1), microfacet(1, 0.4), tinted(Lobe::Ward, 1, {0.3, 0})})
     for (const Material& base : {matte(0.8), beckmann(1, 0.5, 0.3), dielectric(1.5, 0.4)})
       for (const double degrees : {10.0, 60.0, 85.0, 130.0})  // beyond the critical angle too
@@ -267,27 +265,17 @@ TEST_CASE("a coat of an index below 1 with none above reflects as its inverse, a
 }
 
 TEST_CASE("turned glossy lobes are the mirrored one") {
-  const auto value = [](Lobe lobe, Vec3d o, Vec3d i) {
-    const Material m = tinted(lobe, 1, {30, 80});
-    const materials::Layout layout = m.layout();
-    const auto p = m.params<double>();
-    return Bsdf<double>(layout, p.data()).eval(o, i, Mode::Radiance)[0];
-  };
+  const auto of = [](Lobe lobe) { return tinted(lobe, 1, {30, 80}); };
   const Vec3d o = direction(50, 0.3);
   for (double degrees : {20.0, 50.0, 85.0}) {
     const Vec3d i = direction(degrees, 3);
-    const double f = value(Lobe::GlossyProduct, o, i);
-    CHECK(value(Lobe::GlossyBack, o, {-i.x, -i.y, i.z}) == f);
-    CHECK(value(Lobe::GlossyThrough, o, {i.x, i.y, -i.z}) == f);
+    const double f = value(of(Lobe::GlossyProduct), o, i);
+    CHECK(value(of(Lobe::GlossyBack), o, {-i.x, -i.y, i.z}) == f);
+    CHECK(value(of(Lobe::GlossyThrough), o, {i.x, i.y, -i.z}) == f);
   }
 }
 
 TEST_CASE("the glossy lobe around refraction is the one that goes through, bent") {
-  const auto value = [](const Material& m, Vec3d o, Vec3d i) {
-    const materials::Layout layout = m.layout();
-    const auto p = m.params<double>();
-    return Bsdf<double>(layout, p.data()).eval(o, i, Mode::Importance)[0];
-  };
   const double n = 1.5, critical = std::asin(1 / n) * 180 / kPi<double>;
   const auto sine = [](double degrees) { return std::sin(degrees * kPi<double> / 180); };
   const Material through = tinted(Lobe::GlossyThrough, 1, {30, 80});
@@ -295,15 +283,16 @@ TEST_CASE("the glossy lobe around refraction is the one that goes through, bent"
   for (double a : {5.0, 50.0, 89.0})
     for (double b : {10.0, 50.0, 80.0}) {
       const Vec3d o = direction(a, 0.3), i = direction(180 - b, 3.2);
-      const double f = value(through, o, i);
-      CHECK(value(same, o, i) == f);
+      const double f = importance(through, o, i);
+      CHECK(importance(same, o, i) == f);
       // By Snell's law, within the cone of what is refracted.
       const Vec3d inside = direction(180 - std::asin(sine(b) / n) * 180 / kPi<double>, 3.2);
-      CHECK(value(bent, o, inside) == doctest::Approx(n * n * f).epsilon(1e-10));
-      CHECK(value(bent, inside, o) == doctest::Approx(f).epsilon(1e-10));
-      CHECK(value(glossy_refraction(1 / n, {30, 80}), {o.x, o.y, -o.z},
-                  {inside.x, inside.y, -inside.z}) == doctest::Approx(n * n * f).epsilon(1e-10));
-      CHECK(value(bent, o, {i.x, i.y, -i.z}) == 0);
+      CHECK(importance(bent, o, inside) == doctest::Approx(n * n * f).epsilon(1e-10));
+      CHECK(importance(bent, inside, o) == doctest::Approx(f).epsilon(1e-10));
+      CHECK(importance(glossy_refraction(1 / n, {30, 80}), {o.x, o.y, -o.z},
+                       {inside.x, inside.y, -inside.z}) ==
+            doctest::Approx(n * n * f).epsilon(1e-10));
+      CHECK(importance(bent, o, {i.x, i.y, -i.z}) == 0);
     }
   // What is reflected totally: cos^2, of which there is k, is stretched to all of [0, 1].
   const double k = 1 - 1 / (n * n);
@@ -314,9 +303,9 @@ TEST_CASE("the glossy lobe around refraction is the one that goes through, bent"
   };
   for (double a : {critical + 0.5, 60.0, 88.0})
     for (double b : {critical + 5, 75.0, 89.0}) {
-      const double expected = value(flat, stretched(a, 0.3), stretched(b, 2)) / k;
-      CHECK(value(glossy_refraction(n, {30, 0}), direction(180 - a, 0.3), direction(180 - b, 2)) ==
-            doctest::Approx(expected).epsilon(1e-10));
-      CHECK(value(bent, direction(180 - a, 0.3), direction(critical - 1, 2)) == 0);
+      const double expected = importance(flat, stretched(a, 0.3), stretched(b, 2)) / k;
+      CHECK(importance(glossy_refraction(n, {30, 0}), direction(180 - a, 0.3),
+                       direction(180 - b, 2)) == doctest::Approx(expected).epsilon(1e-10));
+      CHECK(importance(bent, direction(180 - a, 0.3), direction(critical - 1, 2)) == 0);
     }
 }
