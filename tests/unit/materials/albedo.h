@@ -141,12 +141,12 @@ inline double two_sided(const Material& m, Vec3d wo, double tolerance) {
     const bool upper = across != (wo.z > 0);
     const double edge = end_of_lobe(layout, p.data(), upper);
     const double peak = across ? brightest_through(bsdf, wo) : wo.z * wo.z;
-    double coarse = hemisphere<8>(bsdf, wo, upper, peak, 7, edge);
-    double fine = hemisphere<16>(bsdf, wo, upper, peak, 7, edge);
+    const auto side = [&](int panels) { return hemisphere(bsdf, wo, upper, peak, panels, edge); };
+    double coarse = hemisphere<8>(bsdf, wo, upper, peak, 7, edge), fine = side(7);
     for (int panels = 14; std::abs(fine - coarse) > tolerance; panels *= 2) {
       REQUIRE(panels <= 112);
       coarse = fine;
-      fine = hemisphere(bsdf, wo, upper, peak, panels, edge);
+      fine = side(panels);
     }
     sum += fine;
   }
