@@ -5,8 +5,8 @@
 
 namespace mms {
 
-/// The suite of cases that sum f over many directions, and do no more. ctest leaves it out under
-/// sanitizers, which see the same code in random calls, a hundred times as fast.
+/// The suite of cases that sum f over many directions, and do no more, in files that do other
+/// things too. ctest leaves it out under sanitizers, as all of tests/accuracy and tests/stats is.
 inline const doctest::test_suite kSum("sums");
 
 }  // namespace mms

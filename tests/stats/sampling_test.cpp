@@ -28,11 +28,6 @@ bool asked(const Case& c) {
   return !only || c.name.starts_with(only);
 }
 
-/// Sanitized builds take each case along one direction of their five.
-bool left_out(std::ptrdiff_t index, std::ptrdiff_t direction) {
-  return kSanitized && (index + direction) % 5 != 0;
-}
-
 /// Where the density of the hero jumps besides the horizon, as `ChiSquareTest::jumps`: phong_glass
 /// draws from both sides where both have a direction, and beyond the critical angle from one.
 std::vector<double> jumps(const Material& m) {
@@ -76,9 +71,8 @@ void check_samples_follow(const std::vector<Case>& cases, std::span<const double
     const auto p64 = hero.params<double>();
     const Bsdf<float> whole(layout, p_whole.data()), sampled(layout, p32.data());
     const Bsdf<double> exact(layout, p64.data());
-    for (const double& degrees : all_degrees) {
+    for (double degrees : all_degrees) {
       ++seed;
-      if (left_out(&c - cases.data(), &degrees - all_degrees.data())) continue;
       const Vec3<float> wo(direction(degrees, 0.7));
       const Vec3d wo_exact = normalize(Vec3d(wo));
       CHECK_MESSAGE(turned_by_others(sampled, whole, wo, seed) == 0, c.name, " at ", degrees);
@@ -192,9 +186,8 @@ TEST_CASE("a sample reports what eval and pdf say, and its mean weight is the al
     const materials::Layout layout = c.material.layout();
     const auto p = c.material.params<double>(), p_hero = hero_only(c.material).params<double>();
     const Bsdf<double> bsdf(layout, p.data()), hero(layout, p_hero.data());
-    for (const double& degrees : kDegrees) {
+    for (double degrees : kDegrees) {
       ++seed;
-      if (left_out(&c - cases.data(), &degrees - kDegrees.data())) continue;
       const Vec3d wo = direction(degrees, 0.7);
       const auto choice = bsdf.choose(wo), another = bsdf.choose(wo), hero_choice = hero.choose(wo);
       stats::Random random(seed);
@@ -210,7 +203,7 @@ TEST_CASE("a sample reports what eval and pdf say, and its mean weight is the al
       stats::Moments drawn;
       Vec3d peak[2] = {direction(100, 1), direction(80, 1)};  // only to place cells
       double most[2] = {0, 0};
-      for (int i = 0, n = stats::sample_count(kSanitized ? 2000 : 20000); i < n; ++i) {
+      for (int i = 0, n = stats::sample_count(20000); i < n; ++i) {
         const double u = random.next(), u1 = random.next(), u2 = random.next();
         const auto s = hero.sample(wo, u, u1, u2, Mode::Importance, hero_choice);
         const bool smooth = s && !s->specular;
@@ -272,7 +265,7 @@ TEST_CASE("float samples are what double says of the same directions") {
       const auto choice = bsdf.choose(wo);
       const auto choice_exact = exact.choose(Vec3d(wo));
       stats::Random random(4);
-      for (int i = 0; i < (kSanitized ? 20 : 100); ++i) {
+      for (int i = 0; i < 100; ++i) {
         const float u = random.next_float(), u1 = random.next_float(), u2 = random.next_float();
         const auto s = bsdf.sample(wo, u, u1, u2, Mode::Importance, choice);
         if (!s || s->specular) continue;
@@ -319,7 +312,7 @@ TEST_CASE("pdf of a wavelength is the density with that wavelength as the hero")
         const Vec3d wo = direction(degrees, 0.7);
         const auto choice = bsdf.choose(wo), other_choice = other.choose(wo);
         stats::Random random(j);
-        for (int i = 0; i < (kSanitized ? 10 : 100); ++i) {
+        for (int i = 0; i < 100; ++i) {
           const double u = random.next(), u1 = random.next(), u2 = random.next();
           const auto by_first = bsdf.sample(wo, u, u1, u2, Mode::Radiance, choice);
           const auto by_other = other.sample(wo, u, u1, u2, Mode::Radiance, other_choice);
@@ -385,7 +378,7 @@ TEST_CASE("pdf of a delta is how often each wavelength as the hero would have le
       conductor(ramp(0.2, 1), 3),
       coat(mirror(0.9), dielectric(ramp(1.6, 1.4)), 0.1, ramp(0.2, 2), 1.5),
       fresnel_mix(mix(dielectric(1.5), matte(0.5), 0.3), mirror(1), ramp(1.3, 2.5))};
-  const int n = kSanitized ? 1000 : 4000;
+  const int n = 4000;
   for (const Material& m : materials) {
     const materials::Layout layout = m.layout();
     const auto p = m.params<double>();

@@ -15,7 +15,6 @@
 #include "base/quadrature.h"
 #include "tests/sanitized.h"
 #include "tests/setting.h"
-#include "tests/sums.h"
 #include "tests/unit/materials/make.h"
 
 namespace mms::test {

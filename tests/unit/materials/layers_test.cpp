@@ -18,12 +18,6 @@ namespace {
 using Ld = long double;
 using C = std::complex<Ld>;
 
-double value(const Material& m, Vec3d o, Vec3d i, Mode mode = Mode::Radiance) {
-  const materials::Layout layout = m.layout();
-  const auto p = m.params<double>();
-  return Bsdf<double>(layout, p.data()).eval(o, i, mode)[0];
-}
-
 double importance(const Material& m, Vec3d o, Vec3d i) { return value(m, o, i, Mode::Importance); }
 
 /// Reflectance by the characteristic matrix of the film (Born and Wolf, 1.6.2), in the angle of
@@ -228,13 +222,8 @@ TEST_CASE("a layer below coats is crossed as Snell's law has it, through all of 
               mirror(1), coat(microfacet(1, 0.3), matte(0.8), thickness, 1, below), 0, 0, above);
           const Material black =
               coat(mirror(1), coat(microfacet(1, 0.3), matte(0), thickness, 1, below), 0, 0, above);
-          const auto f = [&](const Material& of) {
-            const materials::Layout layout = of.layout();
-            const auto p = of.params<double>();
-            return Bsdf<double>(layout, p.data())
-                .eval(direction(degrees, 0.4), direction(35, 3), Mode::Radiance)[0];
-          };
-          return f(m) - f(black);
+          const Vec3d o = direction(degrees, 0.4), i = direction(35, 3);
+          return value(m, o, i) - value(black, o, i);
         };
         double ways = 0;
         for (const double angle : {degrees, 35.0}) {

@@ -182,6 +182,12 @@ Material tilt(Material a, double u, double v) { return node(Lobe::Tilt, {a}, {},
 
 Material add(Material a, Material b) { return node(Lobe::Add, {a, b}, {}); }
 
+double value(const Material& m, Vec3d o, Vec3d i, materials::Mode mode) {
+  const materials::Layout layout = m.layout();
+  const auto p = m.params<double>();
+  return materials::Bsdf<double>(layout, p.data()).eval(o, i, mode)[0];
+}
+
 Vec3d direction(double degrees, double phi) {
   const double a = degrees * kPi<double> / 180;
   return {std::sin(a) * std::cos(phi), std::sin(a) * std::sin(phi), std::cos(a)};

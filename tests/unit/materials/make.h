@@ -78,6 +78,9 @@ Material turn(Material a, double angle);
 Material tilt(Material a, double u, double v);
 Material add(Material a, Material b);
 
+/// f of the hero between two directions.
+double value(const Material& m, Vec3d o, Vec3d i, materials::Mode mode = materials::Mode::Radiance);
+
 /// Direction `degrees` from +z (above 90: inside), at azimuth `phi` in radians.
 Vec3d direction(double degrees, double phi);
 

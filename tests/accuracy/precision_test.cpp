@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "materials/bsdf_definitions.h"
-#include "tests/sanitized.h"
 #include "tests/stats/random.h"
 #include "tests/unit/materials/cases.h"
 
@@ -142,7 +141,7 @@ std::pair<double, double> check_smooth(const std::string& name, const Material& 
 
 TEST_CASE("float is as right as its directions and numbers are, in every model") {
   for (const Case& c : smooth_cases())
-    check_smooth(c.name, c.material, kSanitized ? 20 : 100, 0.02f, From::BothSides);
+    check_smooth(c.name, c.material, 100, 0.02f, From::BothSides);
 }
 
 TEST_CASE("narrow lobes: reflection is as right in float as of wide ones, refraction less") {
@@ -184,8 +183,7 @@ TEST_CASE("narrow lobes: reflection is as right in float as of wide ones, refrac
   for (const Row& row : rows)
     for (double x : row.narrowness) {
       const std::string name = row.name + std::string(" ") + std::to_string(x);
-      const auto [f, pdf] =
-          check_smooth(name, row.material(x), kSanitized ? 50 : 500, 0.1f, From::Outside);
+      const auto [f, pdf] = check_smooth(name, row.material(x), 500, 0.1f, From::Outside);
       const double bound = kFlat + row.moved(x);
       CHECK_MESSAGE(std::max(f, pdf) <= bound, name, ": f ", f, ", pdf ", pdf, " of ", bound);
     }
@@ -220,7 +218,7 @@ TEST_CASE("float is as right as its direction and numbers are, in deltas") {
     stats::Random random(7);
     Errors weights{row.name + std::string(", weight")};
     Errors probabilities{row.name + std::string(", probability")};
-    for (int i = 0; i < (kSanitized ? 50 : 500); ++i) {
+    for (int i = 0; i < 500; ++i) {
       // Every other one near the surface, by all sizes of the cosine.
       Vec3d w = square_to_sphere(random.next(), random.next());
       if (i % 2) w.z *= std::pow(10, -6 * random.next());
@@ -260,7 +258,7 @@ TEST_CASE("at grazing, where directions nearly cancel, float loses no sample") {
       const Vec3d wo_exact = normalize(Vec3d(wo));
       stats::Random random(8);
       int lost = 0;
-      for (int i = 0; i < (kSanitized ? 5'000 : 20'000); ++i) {
+      for (int i = 0; i < 20'000; ++i) {
         const float u = random.next_float(), u1 = random.next_float(), u2 = random.next_float();
         const bool drawn = bool(bsdf.sample(wo, u, u1, u2, Mode::Radiance));
         lost += drawn != bool(exact.sample(wo_exact, u, u1, u2, Mode::Radiance));
