@@ -163,7 +163,7 @@ template <class R>
 Spectrum<R> Bsdf<R>::mean_spread(int base, bool inside, const Choice& choice) const {
   // Over x = z^2 and, by steps of pi / 8, azimuths: one where all are alike, a quarter of the turn
   // of stretched facets, and half of it where axes are turned. Points crowd about a critical angle,
-  // the same for each wavelength, whichever is the hero.
+  // the same for each wavelength, whichever is the hero, and outside towards grazing too.
   R at = 0;
   bool stretched = false;
   for_each_below(*layout_, params_, choice.coats, base, [&](int i, const Spectrum<R>&) {
@@ -183,9 +183,12 @@ Spectrum<R> Bsdf<R>::mean_spread(int base, bool inside, const Choice& choice) co
   for (const R reach : {-at, 1 - at}) {
     if (reach == 0) continue;
     for (int k = 0; k < kPoints; ++k) {
-      const R t = R(gauss<kPoints>().x[k]), x = at + reach * t * t * t;
+      const bool both_ends = !inside && reach < 0;
+      const R t = R(gauss<kPoints>().x[k]),
+              x = at + reach * (both_ends ? t * t * (3 - 2 * t) : t * t * t);
       const R z = std::sqrt(x), s = std::sqrt(1 - x);
-      const R weight = R(gauss<kPoints>().w[k]) * 3 * t * t * std::abs(reach);
+      const R slope = both_ends ? 6 * t * (1 - t) : 3 * t * t;
+      const R weight = R(gauss<kPoints>().w[k]) * slope * std::abs(reach);
       const int azimuths = !stretched ? 1 : choice.frames.any() ? 8 : 4;
       for (int a = 0; a < azimuths; ++a) {
         const R phi = (R(a) + R(0.5)) * (kPi<R> / 8);

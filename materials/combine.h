@@ -64,15 +64,16 @@
 ///   base: T(outside), T T' / M, or 1      M the most that T is: mostly along the normal
 /// so that lossless glass is 1 from both sides: smooth 1e-5 (`dielectric`, `beckmann_dielectric`,
 /// `film_dielectric`, `phong_glass`, `refraction`), round facets of roughness from 0.02 and
-/// stretched ones from 0.1, of anisotropy up to 0.9, 1e-3 for indices between 1.01 and 4 under
-/// coats of indices from 1.005, as without a coat; seen from inside one random setting of
-/// anisotropy 1 in 400 is off by up to 2.5e-3. Of `glossy_refraction`, of an index of at least 1,
-/// what changes sides gets g(wo) g(wi) of the directions outside, and what is sent back is the rest
-/// of T as a mirror: 1e-4. Rough `phong_glass` of such an index loses what it does without a coat,
-/// within 1e-3 (materials/phong_coat.h). Of rough `film_dielectric` round facets are within 1e-3
-/// where the film is up to 600 nm thick, those of anisotropy 0.5 within 3e-3, of 0.9 within 6e-3
-/// (materials/film_coat.h). All that is so under a film too. Rough glass of other indices gets
-/// min(T, T') as if both directions were outside, and loses up to a tenth about the critical angle.
+/// stretched ones from 0.1, of anisotropy up to 0.9, 1e-3 for indices between 1.01 and 4
+/// and their inverses under coats of indices from 1.005, as without a coat; seen from inside one
+/// random setting of anisotropy 1 in 400 is off by up to 2.5e-3. Of `glossy_refraction`, of an
+/// index of at least 1, what changes sides gets g(wo) g(wi) of the directions outside, and what is
+/// sent back is the rest of T as a mirror: 1e-4. Rough `phong_glass` of such an index loses what it
+/// does without a coat, within 1e-3 (materials/phong_coat.h). Of rough `film_dielectric` round
+/// facets are within 1e-3 where the film is up to 600 nm thick, those of anisotropy 0.5 within
+/// 3e-3, of 0.9 within 6e-3 (materials/film_coat.h). All that is so under a film too. Rough glass
+/// of an index above 4 or below 1/4, and with a film of its own below 1, gets min(T, T') as if both
+/// directions were outside, and loses up to a tenth about the critical angle.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`, or of a scaled one so many times less:

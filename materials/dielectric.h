@@ -108,7 +108,10 @@ struct RoughInterface {
   /// Whether it is known what coats send back.
   bool knows_coats() const {
     bool known = true;
-    for (int j = 0; j < kWavelengths; ++j) known &= in_glass_tables(rough_eta(j, Vec3<R>{0, 0, 1}));
+    for (int j = 0; j < kWavelengths; ++j) {
+      const R eta = rough_eta(j, Vec3<R>{0, 0, 1});
+      known &= in_glass_tables(eta) && (eta > 1 || !Face::kFilmed);
+    }
     return known || specular();
   }
   /// That, of light along `w`; `coats` as in SentBack::smooth. \pre not specular
@@ -119,15 +122,14 @@ struct RoughInterface {
     const bool outside = w.z > 0;
     Further further;
     if constexpr (Face::kFilmed) further = further_outside(w, eta, solved);
-    R glass = 0;  // the index that the weights are of
+    R last = 0;  // the index that the weights are of
     GlassWeights<R> weights;
     typename Face::SentWeights film_weights;
     const auto sent = [&](int j, const CoatOnGlass<R>& law) {
-      const R index = outside ? eta[j] : 1 / eta[j];
-      if (std::exchange(glass, index) != index) {
-        weights = {glass_tables(facets), facets.ax, facets.ay, w, index};
+      if (std::exchange(last, eta[j]) != eta[j]) {
+        weights = {glass_tables(facets), facets.ax, facets.ay, w, eta[j]};
         if constexpr (Face::kFilmed)
-          film_weights = {solved.bare[0][0].stretched({w.x, w.y, std::abs(w.z)}).like(), w, index};
+          film_weights = {solved.bare[0][0].stretched({w.x, w.y, std::abs(w.z)}).like(), w, eta[j]};
       }
       R all = weights.sent_back(law);
       if constexpr (Face::kFilmed)

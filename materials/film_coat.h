@@ -33,14 +33,15 @@ template <class R>
 class FilmGlassWeights {
  public:
   FilmGlassWeights() = default;
-  /// Along `w`, of facets of width `alpha` and index `glass`. \pre in_glass_tables(glass)
-  FilmGlassWeights(R alpha, Vec3<R> w, R glass) : inside_(w.z < 0) {
+  /// Along `w`, of facets of width `alpha`, at which light meets the index `eta`.
+  /// \pre in_glass_tables(eta); outside it is above 1
+  FilmGlassWeights(R alpha, Vec3<R> w, R eta) : inside_(w.z < 0) {
     using namespace axes;
     const R z = std::min(std::abs(w.z), R(1)), s = std::sqrt(w.x * w.x + w.y * w.y);
     const auto a = Stencil<R>::at(glass_alpha(alpha), kFilmGlassAlpha);
-    const auto n = Stencil<R>::at(glass_index(glass), kFilmGlassIndex);
+    const auto n = Stencil<R>::at(glass_index(eta), kFilmGlassIndex);
     const auto d =
-        Stencil<R>::at(glass_direction(inside_, z, s, alpha, glass), kFilmGlassDirection[inside_]);
+        Stencil<R>::at(glass_direction(inside_, z, s, alpha, eta), kFilmGlassDirection[inside_]);
     const int n1 = kChanges * coefficients(kFilmGlassDirection[inside_]),
               n0 = n1 * coefficients(kFilmGlassIndex);
     add_terms(changes_, kChanges, kGgxFilmGlass.change[inside_], R(1), a, n0, n, n1, d, kChanges);

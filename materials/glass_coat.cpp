@@ -5,8 +5,12 @@ namespace mms::materials {
 
 #include "glass_tables.inc"  // made by the build: materials/tables/glass.cpp
 
-const GlassTables kGgxGlass{{kGgxRoundOutside, kGgxRoundInside}, {kGgxBentOutside, kGgxBentInside}};
-const GlassTables kBeckmannGlass{{kBeckmannRoundOutside, kBeckmannRoundInside},
-                                 {kBeckmannBentOutside, kBeckmannBentInside}};
+const GlassTables kGgxGlass{
+    {{kGgxRoundOutsideDense, kGgxRoundOutsideRare}, {kGgxRoundInsideDense, kGgxRoundInsideRare}},
+    {{kGgxBentOutsideDense, kGgxBentOutsideRare}, {kGgxBentInsideDense, kGgxBentInsideRare}}};
+const GlassTables kBeckmannGlass{{{kBeckmannRoundOutsideDense, kBeckmannRoundOutsideRare},
+                                  {kBeckmannRoundInsideDense, kBeckmannRoundInsideRare}},
+                                 {{kBeckmannBentOutsideDense, kBeckmannBentOutsideRare},
+                                  {kBeckmannBentInsideDense, kBeckmannBentInsideRare}}};
 
 }  // namespace mms::materials

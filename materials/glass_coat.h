@@ -21,7 +21,7 @@
 /// nothing. Where glass is smooth that is exact. Of facets tables hold, for any direction o, the
 /// weights of a rule for int f g(i) |cos i| di: over Chebyshev's points of |cos i|, exact of g that
 /// are polynomials of it (materials/tables/glass.cpp). So coats may be any, films among them; how
-/// exactly, says materials/combine.h. Where the index of rough glass is not between 1 and 4 all is
+/// exactly, says materials/combine.h. Where the index of rough glass is above 4 or below 1/4 all is
 /// as below other coats. What stretched facets have above round ones as wide along the direction is
 /// in further tables, by fewer points, as polynomials over the shape that they have along it.
 
@@ -41,7 +41,7 @@
 namespace mms::materials {
 
 namespace axes {
-/// Of glass below coats: [0] seen from outside, [1] from inside.
+/// Of glass below coats: [0] of light that meets a higher index, [1] a lower one.
 inline constexpr int kGlassAlpha = 28, kGlassIndex = 20, kGlassDirection[] = {44, 80};
 /// The same of stretched facets, and the degree of polynomials over their shapes.
 struct BentGlassGrid {
@@ -52,6 +52,7 @@ inline constexpr BentGlassGrid kBentGlass[] = {{12, 9, 15, 12}, {15, 18, 25, 12}
 inline constexpr double kLeastGlassIndex = 0.1, kMostGlassIndex = 0.8801117;
 inline constexpr double kLeastGlassAlpha = 0.0464;
 
+/// `eta` or its inverse.
 template <class R>
 inline R glass_index(R eta) {
   return (index(eta) - R(kLeastGlassIndex)) / R(kMostGlassIndex - kLeastGlassIndex);
@@ -61,9 +62,9 @@ inline R glass_alpha(R alpha) {
   return (interface_alpha(alpha) - R(kLeastGlassAlpha)) / R(1 - kLeastGlassAlpha);
 }
 
-/// Of a direction inside, `eta` < 1. With x how much z^2 is above that of the critical angle, what
-/// nearly flat facets do is smooth over the roots of x and of -x, but for what they blur; of rough
-/// ones it is over interface_direction.
+/// Of a direction from which the index falls, `eta` < 1. With x how much z^2 is above that of the
+/// critical angle, what nearly flat facets do is smooth over the roots of x and of -x, but for what
+/// they blur; of rough ones it is over interface_direction.
 template <class R>
 inline R critical_direction(R z, R s, R alpha, R eta) {
   const R zc2 = (1 - eta) * (1 + eta), zc = std::sqrt(zc2);
@@ -81,10 +82,13 @@ inline R critical_direction(R z, R s, R alpha, R eta) {
          (1 + R(1.5) * share);
 }
 
-/// Of a direction of |cosine| `z` and tangential length `s`.
+/// Of a direction of |cosine| `z` and tangential length `s`, from which light meets the relative
+/// index `eta`. From outside, all is reflected beyond the critical angle too, and coats see where.
 template <class R>
-inline R glass_direction(bool inside, R z, R s, R alpha, R glass) {
-  return inside ? critical_direction(z, s, alpha, 1 / glass) : coat_direction(z);
+inline R glass_direction(bool inside, R z, R s, R alpha, R eta) {
+  if (!(eta < 1)) return (coat_direction(z) + direction(z, s, width(alpha))) / 2;
+  const R critical = critical_direction(z, s, alpha, eta);
+  return inside ? critical : (critical + coat_direction(z)) / 2;
 }
 }  // namespace axes
 
@@ -92,10 +96,10 @@ inline R glass_direction(bool inside, R z, R s, R alpha, R glass) {
 /// have above these and of what films change.
 inline constexpr int kGlassPoints = 16, kFewGlassPoints = 10;
 
-/// [0] of light from outside, [1] from inside.
+/// [of light from inside][that meets a lower index].
 struct GlassTables {
-  const float* round[2];  ///< [width][index][direction][point]
-  const float* bent[2];   ///< [width][index][direction][point][term of ShapeBasis]
+  const float* round[2][2];  ///< [width][index][direction][point]
+  const float* bent[2][2];   ///< [width][index][direction][point][term of ShapeBasis]
 };
 extern const GlassTables kGgxGlass, kBeckmannGlass;
 
@@ -111,7 +115,7 @@ inline const GlassTables& glass_tables(const Beckmann<R>&) {
 /// Whether the tables know of a relative index.
 template <class R>
 inline bool in_glass_tables(R eta) {
-  return eta > 1 && eta <= 4;
+  return eta >= R(0.25) && eta <= 4 && eta != 1;
 }
 
 /// The coats above glass, at one wavelength.
@@ -154,21 +158,23 @@ inline R glass_factor(bool o_outside, bool i_outside, R o, R i, R most) {
   return most > 0 ? o * i / most : R(0);
 }
 
-/// The weights of the points for round facets as wide as `f` is along its direction.
-/// \pre in_glass_tables(glass)
+/// The weights of the points for round facets as wide as `f` is along its direction, from which
+/// light meets the relative index `eta`.
+/// \pre in_glass_tables(eta)
 template <class R>
 inline std::array<R, kGlassPoints> round_weights(const GlassTables& tables,
                                                  const StretchedInterface<R>& f, bool inside,
-                                                 R glass) {
+                                                 R eta) {
   using namespace axes;
   const R alpha = f.like(), s = std::sqrt(f.x * f.x + f.y * f.y);
+  const bool falls = eta < 1;
   constexpr int n2 = kGlassPoints;
-  const int n1 = n2 * coefficients(kGlassDirection[inside]), n0 = n1 * coefficients(kGlassIndex);
+  const int n1 = n2 * coefficients(kGlassDirection[falls]), n0 = n1 * coefficients(kGlassIndex);
   std::array<R, kGlassPoints> weights{};
-  add_terms(weights.data(), n2, tables.round[inside], R(1),
+  add_terms(weights.data(), n2, tables.round[inside][falls], R(1),
             Stencil<R>::at(glass_alpha(alpha), kGlassAlpha), n0,
-            Stencil<R>::at(glass_index(glass), kGlassIndex), n1,
-            Stencil<R>::at(glass_direction(inside, f.z, s, alpha, glass), kGlassDirection[inside]),
+            Stencil<R>::at(glass_index(eta), kGlassIndex), n1,
+            Stencil<R>::at(glass_direction(inside, f.z, s, alpha, eta), kGlassDirection[falls]),
             n2);
   return weights;
 }
@@ -177,18 +183,20 @@ inline std::array<R, kGlassPoints> round_weights(const GlassTables& tables,
 template <class R>
 inline std::array<R, kFewGlassPoints> shape_weights(const GlassTables& tables,
                                                     const StretchedInterface<R>& f, bool inside,
-                                                    R glass) {
+                                                    R eta) {
   using namespace axes;
   using Basis = ShapeBasis<R>;
-  const BentGlassGrid& grid = kBentGlass[inside];
+  const bool falls = eta < 1;
+  const BentGlassGrid& grid = kBentGlass[falls];
   const R alpha = f.like(), s = std::sqrt(f.x * f.x + f.y * f.y);
-  const Basis basis(f.shape(widening(inside ? 1 / glass : glass, alpha)), grid.degree);
+  const Basis basis(f.shape(widening(eta, alpha)), grid.degree);
   const int n2 = kFewGlassPoints * basis.count, n1 = n2 * coefficients(grid.direction),
             n0 = n1 * coefficients(grid.index);
   R sums[kFewGlassPoints * Basis::kMost] = {};
-  add_terms(sums, n2, tables.bent[inside], R(1), Stencil<R>::at(glass_alpha(alpha), grid.width), n0,
-            Stencil<R>::at(glass_index(glass), grid.index), n1,
-            Stencil<R>::at(glass_direction(inside, f.z, s, alpha, glass), grid.direction), n2);
+  add_terms(sums, n2, tables.bent[inside][falls], R(1),
+            Stencil<R>::at(glass_alpha(alpha), grid.width), n0,
+            Stencil<R>::at(glass_index(eta), grid.index), n1,
+            Stencil<R>::at(glass_direction(inside, f.z, s, alpha, eta), grid.direction), n2);
   std::array<R, kFewGlassPoints> weights;
   for (int i = 0; i < kFewGlassPoints; ++i) weights[i] = basis.sum(sums + i * basis.count);
   return weights;
@@ -202,13 +210,13 @@ struct GlassWeights {
   std::array<R, kFewGlassPoints> shape{};
 
   GlassWeights() = default;
-  /// Along `w`, of facets of the widths `ax` and `ay` and index `glass`.
-  /// \pre in_glass_tables(glass)
-  GlassWeights(const GlassTables& tables, R ax, R ay, Vec3<R> w, R glass)
+  /// Along `w`, of facets of the widths `ax` and `ay`, at which light meets the index `eta`.
+  /// \pre in_glass_tables(eta)
+  GlassWeights(const GlassTables& tables, R ax, R ay, Vec3<R> w, R eta)
       : inside(w.z < 0), stretched(ax != ay) {
     const auto f = StretchedInterface<R>::of(ax, ay, {w.x, w.y, std::min(std::abs(w.z), R(1))});
-    round = round_weights(tables, f, inside, glass);
-    if (stretched) shape = shape_weights(tables, f, inside, glass);
+    round = round_weights(tables, f, inside, eta);
+    if (stretched) shape = shape_weights(tables, f, inside, eta);
   }
 
   /// S, but for T(o).

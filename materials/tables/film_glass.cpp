@@ -54,7 +54,8 @@ std::vector<float> side(bool inside) {
   parallel(kFilmGlassAlpha * kFilmGlassIndex, [&](int i) {
     const double alpha = alpha_of(i / kFilmGlassIndex), glass = index_of(i % kFilmGlassIndex);
     for (int d = 0; d < directions; ++d) {
-      const double z = glass_cosine_at(inside, double(d) / (directions - 1), alpha, glass, alpha);
+      const double z = glass_cosine_at(inside, double(d) / (directions - 1), alpha,
+                                       inside ? 1 / glass : glass, alpha);
       const auto all =
           changes(inside, Ggx<double>{{alpha, alpha}}, glass, {std::sqrt(1 - z * z), 0, z});
       put_weights(all.of.data(), kTerms, &grid.values[(i * directions + d) * kPoints * kTerms]);

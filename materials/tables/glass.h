@@ -18,17 +18,18 @@
 namespace mms::materials::tables {
 
 /// The index and the width of places along their axes.
-inline double glass_index_at(double place) {
-  return index_of(axes::kLeastGlassIndex +
-                  (axes::kMostGlassIndex - axes::kLeastGlassIndex) * place);
+inline double glass_index_at(double place, bool falls = false) {
+  return index_of(axes::kLeastGlassIndex + (axes::kMostGlassIndex - axes::kLeastGlassIndex) * place,
+                  !falls);
 }
 inline double glass_alpha_at(double place) {
   return std::pow(axes::kLeastGlassAlpha + (1 - axes::kLeastGlassAlpha) * place, 3);
 }
-/// The |cosine| at a place on the axis of directions; above 0.
-inline double glass_cosine_at(bool inside, double place, double alpha, double glass, double root) {
+/// The |cosine| at a place on the axis of directions, from which light meets the index `eta`; above
+/// 0.
+inline double glass_cosine_at(bool inside, double place, double alpha, double eta, double root) {
   const double z = cosine(std::min(place, 1 - kLeast), [&](double c, double s) {
-    return axes::glass_direction(inside, c, s, alpha, glass);
+    return axes::glass_direction(inside, c, s, alpha, eta);
   });
   return std::max(z, kLeast * root);
 }
@@ -65,7 +66,7 @@ Moments<Points> further_outside(const Facets& facets, double glass) {
         const double l = azimuth_mean([&](double, double) { return (*next++)(z, s); });
         return terms_at<Points>(z) * l;
       },
-      facets.ax * facets.ay, 0, round ? 24 : 12);
+      facets.ax * facets.ay, ridge_of(glass), round ? 24 : 12);
   return sum / sum.of[0];  // t_0 is 1
 }
 

@@ -22,16 +22,15 @@ namespace mms::test {
 /// How many settings a sweep of energy tries: `all` of them in `./run nightly`, half else.
 inline int swept(int all) { return setting("MMS_ENERGY_SWEEP", 0) > 0 ? all : all / 2; }
 
-/// What the hemisphere of z > 0 or z < 0 gets of `wo`, without deltas: over x = cos^2 and the
+/// The integral over the hemisphere of z > 0 or z < 0 of `value(wi)` |wi.z|: over x = cos^2 and the
 /// azimuth from `wo`'s opposite, both from the direction (cos^2 = `peak`) where the lobe may be
 /// narrow, as eighth powers near it: `panels` Gauss rules of N points along each. Where models
 /// change across cos^2 = `edge`, each side of it is integrated alone. Where one point in 64 says
 /// that both sides of wo's plane are alike, as of round facets, one is.
-template <int N = 16>
-double hemisphere(const materials::Bsdf<double>& bsdf, Vec3d wo, bool upper, double peak,
-                  int panels, double edge = 0) {
+template <int N = 16, class Value>
+double over_hemisphere(const Value& value, Vec3d wo, bool upper, double peak, int panels,
+                       double edge = 0) {
   const int n = N * panels;
-  const auto choice = bsdf.choose(wo);
   const double start = std::atan2(-wo.y, -wo.x);
   std::vector<double> offset(n), weight(n);  // 1 - (1 - u^8)^2: smooth in z where z is 0
   for (int i = 0; i < n; ++i) {
@@ -42,8 +41,8 @@ double hemisphere(const materials::Bsdf<double>& bsdf, Vec3d wo, bool upper, dou
   }
   const auto f = [&](double x, double azimuth) {
     const double z = std::sqrt(x), r = std::sqrt(1 - x);
-    const Vec3d wi{r * std::cos(start + azimuth), r * std::sin(start + azimuth), upper ? z : -z};
-    return bsdf.evaluate(wo, wi, materials::Mode::Importance, choice).f[0];
+    return value(
+        Vec3d{r * std::cos(start + azimuth), r * std::sin(start + azimuth), upper ? z : -z});
   };
   std::vector<std::array<double, 2>> parts;  // from, to
   for (const auto& [a, b] : {std::array{0.0, edge}, std::array{edge, 1.0}})
@@ -71,6 +70,16 @@ double hemisphere(const materials::Bsdf<double>& bsdf, Vec3d wo, bool upper, dou
       sum += std::abs(to - from) * weight[i] * ring;
     }
   return sum * kPi<double> / 2;  // dx = 2 cos sin dtheta
+}
+
+/// What that hemisphere gets of `wo`, without deltas.
+template <int N = 16>
+double hemisphere(const materials::Bsdf<double>& bsdf, Vec3d wo, bool upper, double peak,
+                  int panels, double edge = 0) {
+  const auto choice = bsdf.choose(wo);
+  return over_hemisphere<N>(
+      [&](Vec3d wi) { return bsdf.evaluate(wo, wi, materials::Mode::Importance, choice).f[0]; }, wo,
+      upper, peak, panels, edge);
 }
 
 /// Albedo towards the side of `wo` without deltas.

@@ -134,7 +134,9 @@ std::vector<Case> smooth_cases() {
       fresnel_mix(mix(matte(0.8), scale(beckmann_dielectric(1.3, 0.6, 1, 1, 0.5), ramp(1, 0.7)),
                       ramp(0.2, 0.9)),
                   microfacet(1, 0), 2.2));
-  put("coat over glass of a lower index", coat(mirror(1), dielectric(0.7, 0.4), 0, 0, 1.5));
+  lossless("coat over glass of a lower index", coat(mirror(1), dielectric(0.7, 0.4), 0, 0, 1.5));
+  put("rough coat over stretched glass of a lower index",
+      coat(microfacet(ramp(0.9, 1), 0.5), dielectric(ramp(0.6, 0.8), 0.5, 1, 1, 0.6), 0, 0, 1.4));
   put("rough coat over rough glass",
       coat(microfacet(ramp(0.9, 1), 0.5), dielectric(ramp(1.6, 1.4), 0.6, ramp(0.5, 1)), 0.2,
            ramp(0.1, 1), ramp(1.4, 1.7)));

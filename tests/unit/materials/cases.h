@@ -38,7 +38,6 @@ std::vector<Case> smooth_cases();
 /// phong_glass               what neither side has a direction for is lost
 /// sheen                     what passes the fibres is for `layer`, which keeps all of radiance but
 ///                           not of importance, as the fit is not reciprocal (sheen_test.cpp)
-/// glass of a lower index under a coat   what no more is known of there
 std::vector<Case> lossless_cases();
 
 /// Degrees from the normal, both sides; under sanitizers every other one.
