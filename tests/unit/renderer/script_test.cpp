@@ -293,7 +293,7 @@ TEST_CASE("negative emission counts as none, of surfaces and of volumes") {
 }
 
 TEST_CASE("a lossless material is as bright as its light, in a render") {
-  // To what each keeps by quadrature (tests/unit/materials): 1e-3, and the least of either.
+  // To what each keeps by quadrature (tests/accuracy): 1e-3, and the least of either.
   for (const char* bsdf : {"matte(1)",
                            "translucent(1)",
                            "rough_matte(1, 0.5)",
