@@ -108,10 +108,7 @@ struct RoughInterface {
   /// Whether it is known what coats send back.
   bool knows_coats() const {
     bool known = true;
-    for (int j = 0; j < kWavelengths; ++j) {
-      const R eta = rough_eta(j, Vec3<R>{0, 0, 1});
-      known &= in_glass_tables(eta) && (eta > 1 || !Face::kFilmed);
-    }
+    for (int j = 0; j < kWavelengths; ++j) known &= in_glass_tables(rough_eta(j, Vec3<R>{0, 0, 1}));
     return known || specular();
   }
   /// That, of light along `w`; `coats` as in SentBack::smooth. \pre not specular
@@ -129,7 +126,9 @@ struct RoughInterface {
       if (std::exchange(last, eta[j]) != eta[j]) {
         weights = {glass_tables(facets), facets.ax, facets.ay, w, eta[j]};
         if constexpr (Face::kFilmed)
-          film_weights = {solved.bare[0][0].stretched({w.x, w.y, std::abs(w.z)}).like(), w, eta[j]};
+          film_weights = {StretchedInterface<R>::of(facets.ax, facets.ay,
+                                                    {w.x, w.y, std::min(std::abs(w.z), R(1))}),
+                          eta[j], !outside};
       }
       R all = weights.sent_back(law);
       if constexpr (Face::kFilmed)

@@ -5,7 +5,10 @@ namespace mms::materials {
 
 #include "film_glass_tables.inc"  // made by the build: materials/tables/film_glass.cpp
 
-const FilmGlassTables kGgxFilmGlass{{kGgxFilmGlassOutside, kGgxFilmGlassInside},
-                                    kGgxFilmGlassFurther};
+const FilmGlassTables kGgxFilmGlass{{{kGgxFilmGlassOutsideDense, kGgxFilmGlassOutsideRare},
+                                     {kGgxFilmGlassInsideDense, kGgxFilmGlassInsideRare}},
+                                    {{kGgxFilmGlassOutsideDenseBent, kGgxFilmGlassOutsideRareBent},
+                                     {kGgxFilmGlassInsideDenseBent, kGgxFilmGlassInsideRareBent}},
+                                    {kGgxFilmGlassFurtherDense, kGgxFilmGlassFurtherRare}};
 
 }  // namespace mms::materials
