@@ -5,6 +5,6 @@ namespace mms::materials {
 
 #include "phong_tables.inc"  // made by the build: materials/tables/phong.cpp
 
-const float* const kPhongWeights = kPhong;
+const PhongGlassTables kPhongGlass{kPhong, kLowPhong};
 
 }  // namespace mms::materials

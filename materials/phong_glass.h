@@ -40,10 +40,11 @@ struct PhongGlass {
         transmitted(weight_at(p + 2 * kWavelengths + 1)) {}
 
   bool specular() const { return n > R(kMaxExponent); }
-  /// Whether it is known what coats send back: they lie on the side of the lower index.
+  /// Whether it is known what coats send back.
   bool knows_coats() const {
     return specular() || std::all_of(ior, ior + kWavelengths, [](R its) {
-             return relative_eta(its, Vec3<R>{0, 0, 1}) >= 1;
+             const R eta = relative_eta(its, Vec3<R>{0, 0, 1});
+             return eta >= 1 || in_glass_tables(eta);
            });
   }
   /// That, of light along `w` (materials/phong_coat.h); `coats` as in SentBack::smooth.
@@ -125,14 +126,11 @@ struct PhongGlass {
     const bool outside = w.z > 0;
     const R c = std::min(std::abs(w.z), R(1)), s = std::sqrt(w.x * w.x + w.y * w.y);
     const FresnelSplit<R> o = fresnel_split(c, eta);
-    const auto weights = phong_weights(n, outside ? s : s / eta);
+    const R here = outside ? o.reflected : o.transmitted;
+    const PhongWeights<R> weights(n, s, eta, !outside);
     R sent = 0;
-    for (int i = 0; i < kGlassPoints; ++i) {
-      const FresnelSplit<R> there =
-          fresnel_split(R(chebyshev_points<kGlassPoints>()[i]), outside ? eta : 1 / eta);
-      sent += weights[i] * law.sent[!outside][i] *
-              (outside ? o.reflected + there.reflected : o.transmitted + there.transmitted);
-    }
+    for (int i = 0; i < kGlassPoints; ++i)
+      sent += law.sent[!outside][i] * (here * weights.of[i] + weights.of[kGlassPoints + i]);
     return sent / 2;
   }
 
