@@ -66,14 +66,14 @@
 /// `film_dielectric`, `phong_glass`, `refraction`), round facets of roughness from 0.02 and
 /// stretched ones from 0.1, of anisotropy up to 0.9, 1e-3 for indices between 1.01 and 4
 /// and their inverses under coats of indices from 1.005, as without a coat; seen from inside one
-/// random setting of anisotropy 1 in 400 is off by up to 2.5e-3. Of `glossy_refraction`, of an
-/// index of at least 1, what changes sides gets g(wo) g(wi) of the directions outside, and what is
-/// sent back is the rest of T as a mirror: 1e-4. Rough `phong_glass` of such an index loses what it
-/// does without a coat, within 1e-3 (materials/phong_coat.h). Of rough `film_dielectric` round
-/// facets are within 1e-3 where the film is up to 600 nm thick, those of anisotropy 0.5 within
-/// 3e-3, of 0.9 within 6e-3 (materials/film_coat.h). All that is so under a film too. Rough glass
-/// of an index above 4 or below 1/4, and with a film of its own below 1, gets min(T, T') as if both
-/// directions were outside, and loses up to a tenth about the critical angle.
+/// random setting of anisotropy 1 in 400 is off by up to 2.5e-3. What changes sides in
+/// `glossy_refraction` gets g(wo) g(wi) of the directions outside, and where its index is below 1 T
+/// of the one outside; the rest of T is sent back as by a mirror: 1e-4. Rough `phong_glass` of an
+/// index from 1/4 loses what it does without a coat, within 1e-3 (materials/phong_coat.h). Rough
+/// `film_dielectric` is within 1e-3 up to anisotropy 0.9 where its film is up to 600 nm thick
+/// (materials/film_coat.h). All that is so under a film too. Rough glass of an index above 4 or
+/// below 1/4 gets min(T, T') as if both directions were outside, and loses up to a tenth about the
+/// critical angle.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`, or of a scaled one so many times less:
@@ -456,18 +456,26 @@ inline Spectrum<R> coated_scaling(const CoatTree<R>& coats, const NodeAbove& abo
   return g;
 }
 
-/// The same of `glossy_refraction`, whose lobe is outside in a direction for each index.
+/// The same of what passes `glossy_refraction`, whose lobe is outside in a direction for each
+/// index; where the index is the lower one, the factor of glass (materials/glass_coat.h).
 template <class R, class Model>
 inline Spectrum<R> bent_scaling(const CoatTree<R>& coats, const NodeAbove& above,
                                 const UnderCoats<R>* under, const Model& model, Vec3<R> w) {
   Spectrum<R> g, of_index;
+  const auto through = [&](R z) {
+    Spectrum<R> t;
+    for (int k = 0; k < kWavelengths; ++k)
+      t[k] = split_together(coats, above.base, k, z).transmitted;
+    return t;
+  };
   for_each_index(model.numbers, [&](int j, bool repeated) {
     if (!repeated) {
-      const CoatedLobe<R> lobe = model.coated(w, j);
-      Spectrum<R> through;
-      for (int k = 0; k < kWavelengths; ++k)
-        through[k] = split_together(coats, above.base, k, lobe.z).transmitted;
-      of_index = coated_scaling(coats, above, under, lobe, {through, lobe.z});
+      if (model.falls(j)) {
+        of_index = w.z > 0 ? through(std::min(w.z, R(1))) : Spectrum<R>(R(1));
+      } else {
+        const CoatedLobe<R> lobe = model.coated(w, j);
+        of_index = coated_scaling(coats, above, under, lobe, {through(lobe.z), lobe.z});
+      }
     }
     g[j] = of_index[j];
   });

@@ -18,7 +18,13 @@
 /// All of it is lossless for colour 1 from both sides, and reciprocal. At index 1 it is
 /// `glossy_through`, and beyond all gloss `refraction`.
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "materials/glass_coat.h"
 #include "materials/glossy.h"
+#include "materials/under_coats.h"
 
 namespace mms::materials {
 
@@ -30,18 +36,29 @@ struct GlossyRefraction {
   explicit GlossyRefraction(const R* p) : numbers(p), lobe(p + kWavelengths) {}
 
   bool specular() const { return lobe.specular(); }
-  /// Whether it is known what coats let through: they lie on the side of the lower index.
-  bool knows_coats() const {
-    return specular() || std::all_of(numbers, numbers + kWavelengths, [](R ior) {
-             return relative_eta(ior, Vec3<R>{0, 0, 1}) >= 1;
-           });
-  }
+  /// Whether coats lie on the side of the higher index, at wavelength j.
+  bool falls(int j) const { return relative_eta(numbers[j], Vec3<R>{0, 0, 1}) < 1; }
   /// How coats see what passes at wavelength j: as the lobe of `glossy_through` that it is outside.
-  /// Of `w` beyond the critical angle, along the surface. \pre knows_coats
+  /// Of `w` beyond the critical angle, along the surface. \pre not falls(j)
   CoatedLobe<R> coated(Vec3<R> w, int j) const {
     const R eta = relative_eta(numbers[j], w);
     const Vec3<R> up = to_upper(w, w);
     return lobe.coated(eta < 1 ? beyond(up.z, eta) ? Vec3<R>{} : refracted(up, eta) : up);
+  }
+  /// What coats send back of light along `w`, as a mirror; `coats` as in SentBack::smooth.
+  /// \pre not specular
+  template <class Coats>
+  SentBack<R> sent_back(Vec3<R> w, const Coats& coats) const {
+    SentBack<R> back = SentBack<R>::smooth(terms(w), w, coats);
+    std::optional<SpreadMatrix<R>> matrix;
+    for (int j = 0; j < kWavelengths; ++j) {
+      if (!falls(j) || !coats.law[j].counts) continue;
+      if (!matrix) matrix.emplace(lobe.coated(w));
+      const R share =
+          w.z > 0 ? sent_outside(w.z, j, *matrix, coats) : sent_inside(-w.z, j, *matrix, coats);
+      back.share[j] = lobe.colour[j] * limited(share, R(0), R(1));
+    }
+    return back;
   }
 
   Spectrum<R> estimate(Vec3<R>) const { return lobe.colour; }
@@ -81,6 +98,27 @@ struct GlossyRefraction {
   }
 
  private:
+  /// What coats send back where the index is the lower one, for colour 1. Light that is reflected
+  /// outside beyond the critical angle, at cos^2 = k X, lacks 1 - T / M, what comes outside E.
+  template <class Coats>
+  R sent_outside(R z, int j, const SpreadMatrix<R>& matrix, const Coats& coats) const {
+    const R eta = relative_eta(numbers[j], Vec3<R>{0, 0, 1}), k = (1 - eta) * (1 + eta);
+    if (!beyond(z, eta)) return 0;
+    const R most = coats.law[j].most, y = std::min(z * z / k, R(1));
+    return coats.split(j, z).transmitted *
+           matrix.mean_along(lobe.coated({std::sqrt(1 - y), 0, std::sqrt(y)}), [&](R x) {
+             return std::max(1 - coats.split(j, std::sqrt(k) * x).transmitted / most, R(0));
+           });
+  }
+  template <class Coats>
+  R sent_inside(R z, int j, const SpreadMatrix<R>& matrix, const Coats& coats) const {
+    const R eta = relative_eta(numbers[j], Vec3<R>{0, 0, 1});
+    return matrix.mean_along(lobe.coated({std::sqrt((1 - z) * (1 + z)), 0, z}), [&](R c) {
+      const R outside2 = 1 - eta * eta * (1 - c) * (1 + c);
+      return coats.split(j, std::sqrt(std::max(outside2, R(0)))).reflected;
+    });
+  }
+
   /// Whether light at the cosine `c` is reflected totally; `eta` is the index beyond over its own.
   static bool beyond(R c, R eta) { return eta < 1 && !(refraction_g2(std::min(c, R(1)), eta) > 0); }
 

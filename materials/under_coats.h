@@ -203,6 +203,19 @@ struct SpreadMatrix {
 
   R cosine(int k) const { return limited(rows[kDirections][k], R(0), R(1)); }
 
+  /// int K g |cos i| di along the direction of `lobe`, of whose width the matrix is, for `g` of the
+  /// |cosine|.
+  template <class G>
+  R mean_along(const CoatedLobe<R>& lobe, const G& g) const {
+    Values of;
+    for (int k = 0; k < kDirections; ++k) of[k] = g(cosine(k));
+    const Values all = mean(of), weights = SpreadPoints<R>::get().weights_at(
+                                     axes::spread_direction(lobe.z, lobe.cosines));
+    R sum = 0;
+    for (int k = 0; k < kDirections; ++k) sum += weights[k] * all[k];
+    return sum;
+  }
+
   /// int K `of` |cos i| di along the directions.
   Values mean(const Values& of) const {
     Values sum{};

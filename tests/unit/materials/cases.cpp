@@ -135,6 +135,13 @@ std::vector<Case> smooth_cases() {
                       ramp(0.2, 0.9)),
                   microfacet(1, 0), 2.2));
   lossless("coat over glass of a lower index", coat(mirror(1), dielectric(0.7, 0.4), 0, 0, 1.5));
+  lossless(
+      "coat over filmed glass of a lower index",
+      coat(mirror(1), film_dielectric(0.7, 2.2, 400e-9, ramp(400e-9, 700e-9), 0.4), 0, 0, 1.5));
+  put("coat over phong_glass of a lower index",
+      coat(microfacet(1, 0.4), phong_glass(ramp(0.6, 0.8), 30), 0, 0, 1.5));
+  lossless("coat over glossy_refraction of a lower index",
+           coat(microfacet(1, 0.4), glossy_refraction(ramp(0.6, 0.8), {30, 10}), 0, 0, 1.5));
   put("rough coat over stretched glass of a lower index",
       coat(microfacet(ramp(0.9, 1), 0.5), dielectric(ramp(0.6, 0.8), 0.5, 1, 1, 0.6), 0, 0, 1.4));
   put("rough coat over rough glass",
