@@ -6,6 +6,7 @@
 /// `coloured_metal`: the same of a reflectance that is stated by its colours. Light of several
 /// bounces has been reflected as often: it is more saturated.
 
+#include "base/quadrature.h"
 #include "materials/fresnel.h"
 #include "materials/microfacet.h"
 
@@ -84,10 +85,20 @@ struct RoughMetal {
   }
   SpecularTerms<R> terms(Vec3<R> wo) const { return mirror_terms(estimate(wo)); }
 
-  /// 2 int_0^1 F(c) c dc by the Gauss rule of four points for that weight: within 5e-4 of real
-  /// metals', exact for coloured ones that are nowhere cut off at 0, and 1 for the lossless; under
-  /// films of 400 nm within 5e-3, of 800 nm within 4e-2.
+  /// 2 int_0^1 F(c) c dc. Of bare metals by the Gauss rule of four points for that weight: within
+  /// 5e-4 of real ones', exact for coloured ones that are nowhere cut off at 0, and 1 for the
+  /// lossless. Under films by rules of four that see their fringes: of 400 nm within 5e-4, of 800
+  /// nm 1.5e-3, of 3 um 5e-3 and of 10 um 1.1e-2.
   Spectrum<R> mean_reflectance() const {
+    if constexpr (requires { reflectance.parts(); }) {
+      const int parts = reflectance.parts();
+      Spectrum<R> mean;
+      for (int k = 0; k < 4 * parts; ++k) {
+        const R c = (R(k / 4) + R(gauss<4>().x[k % 4])) / R(parts);
+        mean += reflectance(c) * (2 * c * R(gauss<4>().w[k % 4]) / R(parts));
+      }
+      return mean;
+    }
     return reflectance(R(0.139759864344)) * R(0.062361941900) +
            reflectance(R(0.416409567631)) * R(0.259695095216) +
            reflectance(R(0.723156986362)) * R(0.406929136021) +

@@ -10,6 +10,7 @@
 /// where the index is 1, fade to the mean of films of all thicknesses: no few numbers say what many
 /// facets lose under these, and films of that thickness, which is not even to a wave, look so.
 
+#include <algorithm>
 #include <array>
 #include <complex>
 
@@ -29,15 +30,23 @@ struct FilmFresnel {
 
   Spectrum<R> operator()(R c) const {
     Spectrum<R> f;
-    const R thickness = p[3 * kWavelengths];
-    const R* wavelength = p + 3 * kWavelengths + 1;
     for (int j = 0; j < kWavelengths; ++j) {
       const std::complex<R> metal(limited(p[j], R(0), R(1e3)),
                                   limited(p[kWavelengths + j], R(0), R(1e3)));
-      const Film<R> film(p[2 * kWavelengths + j], thickness, wavelength[j]);
-      f[j] = film.split(c, R(1), metal).reflected;
+      f[j] = film(j).split(c, R(1), metal).reflected;
     }
     return f;
+  }
+  /// Of the cosine, in which there is half a fringe at most, but of films of many.
+  int parts() const {
+    R most = 0;
+    for (int j = 0; j < kWavelengths; ++j) most = std::max(most, film(j).fringes);
+    return 2 + int(std::min(2 * most, R(14)));
+  }
+
+ private:
+  Film<R> film(int j) const {
+    return {p[2 * kWavelengths + j], p[3 * kWavelengths], p[3 * kWavelengths + 1 + j]};
   }
 };
 

@@ -225,14 +225,16 @@ double tinted_schlick(double c, double facing, double edge) {
 template <class Facets>
 struct Metal {
   /// How far the model's own may be off: shares of light, and the mean reflectance (conductor.h).
-  static constexpr double kLossError = 1e-4, kMeanError = 5e-4;
+  static constexpr double kLossError = 1e-4;
+  double mean_error;
 
   Interface<Facets> facets;  ///< of an index that lets nothing through
   Reflectance reflectance;
   double mean, mean_loss;  ///< over the hemisphere
 
-  Metal(double alpha, Reflectance r)
-      : facets{{alpha, alpha}, 1e-9},
+  Metal(double alpha, Reflectance r, double its_mean_error)
+      : mean_error(its_mean_error),
+        facets{{alpha, alpha}, 1e-9},
         reflectance(std::move(r)),
         mean(integrate_adaptive([&](double c) { return 2 * c * reflectance(c); }, 0.0, 1.0, 1e-9)) {
     mean_loss = integrate<16>([&](double u) { return 4 * u * u * u * loss(u * u); }, 0, 1);
@@ -245,7 +247,7 @@ struct Metal {
   double single(Vec3d o, Vec3d i) const { return at_facet(o, i) * facets.value(o, i); }
   /// F of all further bounces; `off` in [-1, 1] of these errors, as of those of a loss below.
   double further(double off) const {
-    const double f = mean + off * kMeanError;
+    const double f = mean + off * mean_error;
     return f * f * (1 - mean_loss) / (1 - f * mean_loss);
   }
   double multiple(Vec3d o, Vec3d i, double off) const {
@@ -258,12 +260,12 @@ struct Metal {
 };
 
 template <class Facets>
-void check_metal(const std::string& name, Material (*make)(double roughness),
-                 const Reflectance& reflectance,
-                 std::vector<double> roughnesses = {0.1, 0.3, 0.8}) {
+void check_metal(const std::string& name, const std::function<Material(double roughness)>& make,
+                 const Reflectance& reflectance, std::vector<double> roughnesses = {0.1, 0.3, 0.8},
+                 double mean_error = 5e-4) {
   double broadest = 0, off = 0;
   for (double roughness : roughnesses) {
-    const Metal<Facets> metal(roughness * roughness, reflectance);
+    const Metal<Facets> metal(roughness * roughness, reflectance, mean_error);
     const Material m = make(roughness);
     const materials::Layout layout = m.layout();
     const Bsdf<double> bsdf(layout, m.numbers.data());
@@ -317,6 +319,21 @@ TEST_CASE("lossy metals are one bounce, and of the rest what is said of it") {
   check_metal<BeckmannFacets>(
       "beckmann 0.7", [](double r) { return beckmann(0.7, r); }, [](double) { return 0.7; },
       {0.3, 0.5, 0.8});  // below, less is lost than the error that is allowed
+}
+
+TEST_CASE("so are metals under films") {
+  for (const auto& [nm, mean_error] : {std::pair(300, 5e-4), {800, 1.5e-3}}) {
+    const double thickness = nm * 1e-9;
+    check_metal<GgxFacets>(
+        "0.9 + 3 i under " + std::to_string(nm) + " nm",
+        [=](double r) { return film_conductor(0.9, 3, 1.8, thickness, 5e-7, r); },
+        [=](double c) {
+          return materials::Film<double>(1.8, thickness, 5e-7)
+              .split(c, 1.0, std::complex<double>(0.9, 3))
+              .reflected;
+        },
+        {0.5, 1}, mean_error);
+  }
 }
 
 TEST_CASE("so are metals whose reflectance has a dip") {
