@@ -20,11 +20,10 @@
 namespace mms::materials {
 
 namespace axes {
-/// [0] of light that meets a higher index, [1] a lower one.
-inline constexpr int kFilmGlassAlpha = 18, kFilmGlassIndex = 14, kFilmGlassDirection[] = {36, 72};
-inline constexpr BentGlassGrid kFilmBentGlass[] = {{8, 7, 10, 6}, {8, 9, 14, 6}};
-inline constexpr int kFilmBentPoints = 6, kFilmBentTerms = kThinFilm.terms;
-inline constexpr int kFilmGlassAspect = 5;
+inline constexpr GlassGrid kRoundFilmGlass[] = {{18, 14, 36}, {18, 14, 72}};
+inline constexpr GlassGrid kBentFilmGlass[] = {{8, 7, 10, 6}, {8, 9, 14, 6}};
+inline constexpr int kBentFilmPoints = 6, kBentFilmTerms = kThinFilm.terms;
+inline constexpr int kFurtherAlpha = 18, kFurtherAspect = 5, kFurtherIndex = 14;
 }  // namespace axes
 
 /// `change` and `bent` as in GlassTables, of each k; `further` [of glass of a lower index than
@@ -36,47 +35,13 @@ struct FilmGlassTables {
 };
 extern const FilmGlassTables kGgxFilmGlass;
 
-/// [point of the fewer][k] for the round facets that are as wide as `f` is along its direction, at
-/// which light meets the index `eta`.
+/// [point of the fewer][k] of the round facets that are as wide as `f` is along its direction.
 /// \pre in_glass_tables(eta)
 template <class R>
 inline std::array<R, kFewGlassPoints * axes::kFilmTerms> round_film_weights(
     const FilmGlassTables& tables, const StretchedInterface<R>& f, bool inside, R eta) {
-  using namespace axes;
-  const R alpha = f.like(), s = std::sqrt(f.x * f.x + f.y * f.y);
-  const bool falls = eta < 1;
-  const int n2 = kFewGlassPoints * kFilmTerms, n1 = n2 * coefficients(kFilmGlassDirection[falls]),
-            n0 = n1 * coefficients(kFilmGlassIndex);
-  std::array<R, kFewGlassPoints * kFilmTerms> weights{};
-  add_terms(weights.data(), n2, tables.change[inside][falls], R(1),
-            Stencil<R>::at(glass_alpha(alpha), kFilmGlassAlpha), n0,
-            Stencil<R>::at(glass_index(eta), kFilmGlassIndex), n1,
-            Stencil<R>::at(glass_direction(inside, f.z, s, alpha, eta), kFilmGlassDirection[falls]),
-            n2);
-  return weights;
-}
-
-/// [point][k] of how much more those are for `f` itself.
-template <class R>
-inline std::array<R, axes::kFilmBentPoints * axes::kFilmBentTerms> shape_film_weights(
-    const FilmGlassTables& tables, const StretchedInterface<R>& f, bool inside, R eta) {
-  using namespace axes;
-  using Basis = ShapeBasis<R>;
-  constexpr int count = kFilmBentPoints * kFilmBentTerms;
-  const bool falls = eta < 1;
-  const BentGlassGrid& grid = kFilmBentGlass[falls];
-  const R alpha = f.like(), s = std::sqrt(f.x * f.x + f.y * f.y);
-  const Basis basis(f.shape(widening(eta, alpha)), grid.degree);
-  const int n2 = count * basis.count, n1 = n2 * coefficients(grid.direction),
-            n0 = n1 * coefficients(grid.index);
-  R sums[count * Basis::terms(std::max(kFilmBentGlass[0].degree, kFilmBentGlass[1].degree))] = {};
-  add_terms(sums, n2, tables.bent[inside][falls], R(1),
-            Stencil<R>::at(glass_alpha(alpha), grid.width), n0,
-            Stencil<R>::at(glass_index(eta), grid.index), n1,
-            Stencil<R>::at(glass_direction(inside, f.z, s, alpha, eta), grid.direction), n2);
-  std::array<R, count> weights;
-  for (int i = 0; i < count; ++i) weights[i] = basis.sum(sums + i * basis.count);
-  return weights;
+  return of_round_glass<axes::kRoundFilmGlass, kFewGlassPoints * axes::kFilmTerms>(
+      tables.change[inside][eta < 1], f, inside, eta);
 }
 
 /// What the tables hold for light along one direction.
@@ -91,13 +56,15 @@ class FilmGlassWeights {
         stretched_(f.wide != f.narrow),
         round_(round_film_weights(kGgxFilmGlass, f, inside, eta)) {
     using namespace axes;
-    if (stretched_) shape_ = shape_film_weights(kGgxFilmGlass, f, inside, eta);
-    constexpr int n2 = kLosses, n1 = n2 * coefficients(kFilmGlassIndex),
-                  n0 = n1 * coefficients(kFilmGlassAspect);
+    if (stretched_)
+      shape_ = of_bent_glass<kBentFilmGlass, kBentFilmPoints * kBentFilmTerms>(
+          kGgxFilmGlass.bent[inside][eta < 1], f, inside, eta);
+    constexpr int n2 = kLosses, n1 = n2 * coefficients(kFurtherIndex),
+                  n0 = n1 * coefficients(kFurtherAspect);
     add_terms(losses_, kLosses, kGgxFilmGlass.further[inside != (eta < 1)], R(1),
-              Stencil<R>::at(glass_alpha(f.root()), kFilmGlassAlpha), n0,
-              Stencil<R>::at(aspect(f.wide / f.narrow), kFilmGlassAspect), n1,
-              Stencil<R>::at(glass_index(eta), kFilmGlassIndex), n2);
+              Stencil<R>::at(glass_alpha(f.root()), kFurtherAlpha), n0,
+              Stencil<R>::at(aspect(f.wide / f.narrow), kFurtherAspect), n1,
+              Stencil<R>::at(glass_index(eta), kFurtherIndex), n2);
   }
 
   /// How much more coats send back, but for T(o), than below the bare interface: `q` is of the
@@ -132,12 +99,12 @@ class FilmGlassWeights {
 
   R of_shape(const std::array<R, kFewGlassPoints>& sent, const R (&q)[axes::kFilmTerms]) const {
     using namespace axes;
-    const auto& matrix = chebyshev_transfer<kFilmBentPoints, kFewGlassPoints>();
+    const auto& matrix = chebyshev_transfer<kBentFilmPoints, kFewGlassPoints>();
     R changed = 0;
-    for (int m = 0; m < kFilmBentPoints; ++m) {
+    for (int m = 0; m < kBentFilmPoints; ++m) {
       R there = 0, change = 0;
       for (int i = 0; i < kFewGlassPoints; ++i) there += R(matrix[m][i]) * sent[i];
-      for (int k = 0; k < kFilmBentTerms; ++k) change += q[k] * shape_[m * kFilmBentTerms + k];
+      for (int k = 0; k < kBentFilmTerms; ++k) change += q[k] * shape_[m * kBentFilmTerms + k];
       changed += there * change;
     }
     return changed;
@@ -145,7 +112,7 @@ class FilmGlassWeights {
 
   bool inside_ = false, stretched_ = false;
   std::array<R, kFewGlassPoints * axes::kFilmTerms> round_{};
-  std::array<R, axes::kFilmBentPoints * axes::kFilmBentTerms> shape_{};
+  std::array<R, axes::kBentFilmPoints * axes::kBentFilmTerms> shape_{};
   R losses_[kLosses] = {};
 };
 

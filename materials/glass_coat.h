@@ -41,13 +41,13 @@
 namespace mms::materials {
 
 namespace axes {
-/// Of glass below coats: [0] of light that meets a higher index, [1] a lower one.
-inline constexpr int kGlassAlpha = 28, kGlassIndex = 20, kGlassDirection[] = {44, 80};
-/// The same of stretched facets, and the degree of polynomials over their shapes.
-struct BentGlassGrid {
-  int width, index, direction, degree;
+/// Nodes of a table of glass below coats, and the degree of polynomials over the shapes of
+/// stretched facets. Of two, [0] is of light that meets a higher index, [1] a lower one.
+struct GlassGrid {
+  int width, index, direction, degree = 0;
 };
-inline constexpr BentGlassGrid kBentGlass[] = {{12, 9, 15, 12}, {15, 18, 25, 12}};
+inline constexpr GlassGrid kRoundGlass[] = {{28, 20, 44}, {28, 20, 80}};
+inline constexpr GlassGrid kBentGlass[] = {{12, 9, 15, 12}, {15, 18, 25, 12}};
 /// The ends of the axis of the index, 1.0002 and 4, and the least width, nearly a mirror's.
 inline constexpr double kLeastGlassIndex = 0.1, kMostGlassIndex = 0.8801117;
 inline constexpr double kLeastGlassAlpha = 0.0464;
@@ -158,48 +158,52 @@ inline R glass_factor(bool o_outside, bool i_outside, R o, R i, R most) {
   return most > 0 ? o * i / most : R(0);
 }
 
-/// The weights of the points for round facets as wide as `f` is along its direction, from which
-/// light meets the relative index `eta`.
-/// \pre in_glass_tables(eta)
+namespace detail {
+/// Adds `terms` numbers of a table for `f` along its direction.
+template <class R>
+inline void add_glass(R* sums, int terms, const float* table, const axes::GlassGrid& grid,
+                      const StretchedInterface<R>& f, bool inside, R eta) {
+  using namespace axes;
+  const R alpha = f.like(), s = std::sqrt(f.x * f.x + f.y * f.y);
+  const int n1 = terms * coefficients(grid.direction), n0 = n1 * coefficients(grid.index);
+  add_terms(sums, terms, table, R(1), Stencil<R>::at(glass_alpha(alpha), grid.width), n0,
+            Stencil<R>::at(glass_index(eta), grid.index), n1,
+            Stencil<R>::at(glass_direction(inside, f.z, s, alpha, eta), grid.direction), terms);
+}
+}  // namespace detail
+
+/// What a table of `Count` numbers for each round interface, [width][index][direction][number],
+/// holds for facets as wide as `f` is along its direction, from which light meets the relative
+/// index `eta`. \pre in_glass_tables(eta)
+template <const auto& kGrids, std::size_t Count, class R>
+inline std::array<R, Count> of_round_glass(const float* table, const StretchedInterface<R>& f,
+                                           bool inside, R eta) {
+  std::array<R, Count> numbers{};
+  detail::add_glass(numbers.data(), int(Count), table, kGrids[eta < 1], f, inside, eta);
+  return numbers;
+}
+
+/// The same of `f` itself, [width][index][direction][number][term of ShapeBasis].
+template <const auto& kGrids, std::size_t Count, class R>
+inline std::array<R, Count> of_bent_glass(const float* table, const StretchedInterface<R>& f,
+                                          bool inside, R eta) {
+  using Basis = ShapeBasis<R>;
+  const axes::GlassGrid& grid = kGrids[eta < 1];
+  const Basis basis(f.shape(axes::widening(eta, f.like())), grid.degree);
+  R sums[Count * Basis::terms(std::max(kGrids[0].degree, kGrids[1].degree))] = {};
+  detail::add_glass(sums, int(Count) * basis.count, table, grid, f, inside, eta);
+  std::array<R, Count> numbers;
+  for (std::size_t i = 0; i < Count; ++i) numbers[i] = basis.sum(sums + i * basis.count);
+  return numbers;
+}
+
+/// The weights of the points for such round facets.
 template <class R>
 inline std::array<R, kGlassPoints> round_weights(const GlassTables& tables,
                                                  const StretchedInterface<R>& f, bool inside,
                                                  R eta) {
-  using namespace axes;
-  const R alpha = f.like(), s = std::sqrt(f.x * f.x + f.y * f.y);
-  const bool falls = eta < 1;
-  constexpr int n2 = kGlassPoints;
-  const int n1 = n2 * coefficients(kGlassDirection[falls]), n0 = n1 * coefficients(kGlassIndex);
-  std::array<R, kGlassPoints> weights{};
-  add_terms(weights.data(), n2, tables.round[inside][falls], R(1),
-            Stencil<R>::at(glass_alpha(alpha), kGlassAlpha), n0,
-            Stencil<R>::at(glass_index(eta), kGlassIndex), n1,
-            Stencil<R>::at(glass_direction(inside, f.z, s, alpha, eta), kGlassDirection[falls]),
-            n2);
-  return weights;
-}
-
-/// How much more those of the fewer points are for `f` itself.
-template <class R>
-inline std::array<R, kFewGlassPoints> shape_weights(const GlassTables& tables,
-                                                    const StretchedInterface<R>& f, bool inside,
-                                                    R eta) {
-  using namespace axes;
-  using Basis = ShapeBasis<R>;
-  const bool falls = eta < 1;
-  const BentGlassGrid& grid = kBentGlass[falls];
-  const R alpha = f.like(), s = std::sqrt(f.x * f.x + f.y * f.y);
-  const Basis basis(f.shape(widening(eta, alpha)), grid.degree);
-  const int n2 = kFewGlassPoints * basis.count, n1 = n2 * coefficients(grid.direction),
-            n0 = n1 * coefficients(grid.index);
-  R sums[kFewGlassPoints * Basis::kMost] = {};
-  add_terms(sums, n2, tables.bent[inside][falls], R(1),
-            Stencil<R>::at(glass_alpha(alpha), grid.width), n0,
-            Stencil<R>::at(glass_index(eta), grid.index), n1,
-            Stencil<R>::at(glass_direction(inside, f.z, s, alpha, eta), grid.direction), n2);
-  std::array<R, kFewGlassPoints> weights;
-  for (int i = 0; i < kFewGlassPoints; ++i) weights[i] = basis.sum(sums + i * basis.count);
-  return weights;
+  return of_round_glass<axes::kRoundGlass, kGlassPoints>(tables.round[inside][eta < 1], f, inside,
+                                                         eta);
 }
 
 /// The weights for light along one direction.
@@ -216,7 +220,9 @@ struct GlassWeights {
       : inside(w.z < 0), stretched(ax != ay) {
     const auto f = StretchedInterface<R>::of(ax, ay, {w.x, w.y, std::min(std::abs(w.z), R(1))});
     round = round_weights(tables, f, inside, eta);
-    if (stretched) shape = shape_weights(tables, f, inside, eta);
+    if (stretched)
+      shape = of_bent_glass<axes::kBentGlass, kFewGlassPoints>(tables.bent[inside][eta < 1], f,
+                                                               inside, eta);
   }
 
   /// S, but for T(o).

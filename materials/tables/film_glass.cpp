@@ -11,18 +11,11 @@
 #include "materials/film_coat.h"
 #include "materials/tables/films.h"
 #include "materials/tables/glass.h"
-#include "materials/tables/shapes.h"
 
 namespace mms::materials::tables {
 namespace {
 
 constexpr int kPoints = kFewGlassPoints, kTerms = axes::kFilmTerms;
-constexpr int kBentPoints = axes::kFilmBentPoints, kBentTerms = axes::kFilmBentTerms;
-
-double alpha_of(int i) { return glass_alpha_at(double(i) / (axes::kFilmGlassAlpha - 1)); }
-double index_of(int i, bool falls) {
-  return glass_index_at(double(i) / (axes::kFilmGlassIndex - 1), falls);
-}
 
 /// For each of `Terms` k, the moments over z outside of t_k(c) times what facets let through, where
 /// that or what is reflected goes outside.
@@ -53,72 +46,37 @@ void put_weights(const double* moments, int count, double* to) {
   }
 }
 
-std::vector<float> side(bool inside, bool falls) {
+/// What writes the weights of facets of the given widths.
+template <int Points, int Terms>
+auto weights_of(bool inside) {
+  return [inside](double ax, double ay, double eta) {
+    return [=](Vec3d w, double* to) {
+      const auto moments = changes<Points, Terms>(inside, {{ax, ay}}, eta, w);
+      put_weights<Points>(moments.of.data(), Terms, to);
+    };
+  };
+}
+
+void write_side(const TableFiles& files, bool inside, bool falls) {
   using namespace axes;
-  const int directions = kFilmGlassDirection[falls];
-  Grid grid({kFilmGlassAlpha, kFilmGlassIndex, directions, kPoints * kTerms});
-  parallel(kFilmGlassAlpha * kFilmGlassIndex, [&](int i) {
-    const double alpha = alpha_of(i / kFilmGlassIndex);
-    const double eta = index_of(i % kFilmGlassIndex, falls);
-    for (int d = 0; d < directions; ++d) {
-      const double z = glass_cosine_at(inside, double(d) / (directions - 1), alpha, eta, alpha);
-      const auto all =
-          changes<kPoints, kTerms>(inside, {{alpha, alpha}}, eta, {std::sqrt(1 - z * z), 0, z});
-      put_weights<kPoints>(all.of.data(), kTerms,
-                           &grid.values[(i * directions + d) * kPoints * kTerms]);
-    }
-  });
-  return spline_of(grid);
-}
-
-/// What stretched ones have above the round ones of `tables`.
-std::vector<float> bent_side(bool inside, bool falls, const FilmGlassTables& tables) {
-  const axes::BentGlassGrid& grid = axes::kFilmBentGlass[falls];
-  constexpr int count = kBentPoints * kBentTerms;
-  const auto& fewer = chebyshev_transfer<kPoints, kBentPoints>();
-  const ShapeFit shapes(grid.degree);
-  const int terms = shapes.terms();
-  Grid bent({grid.width, grid.index, grid.direction, count * terms});
-  parallel(grid.width * grid.index, [&](int i) {
-    const double like = glass_alpha_at(double(i / grid.index) / (grid.width - 1));
-    const double eta = glass_index_at(double(i % grid.index) / (grid.index - 1), falls);
-    for (int d = 0; d < grid.direction; ++d) {
-      std::vector<double> values[count];
-      for (int shape = 0; shape < shapes.count(); ++shape) {
-        auto seen = shapes.facets_like(shape, like, axes::widening(eta, like));
-        const double z =
-            glass_cosine_at(inside, double(d) / (grid.direction - 1), like, eta, seen.root());
-        const double s = std::sqrt(1 - z * z);
-        seen.x *= s, seen.y *= s, seen.z = z;
-        const auto moments = changes<kBentPoints, kBentTerms>(inside, {{seen.wide, seen.narrow}},
-                                                              eta, {seen.x, seen.y, z});
-        double all[count];
-        put_weights<kBentPoints>(moments.of.data(), kBentTerms, all);
-        const auto alike = round_film_weights(tables, seen, inside, eta);
-        for (int m = 0; m < kBentPoints; ++m)
-          for (int k = 0; k < kBentTerms; ++k) {
-            double& more = all[m * kBentTerms + k];
-            for (int n = 0; n < kPoints; ++n) more -= alike[n * kTerms + k] * fewer[n][m];
-            values[m * kBentTerms + k].push_back(more);
-          }
-      }
-      for (int k = 0; k < count; ++k)
-        for (int t = 0; t < terms; ++t)
-          bent.values[((i * grid.direction + d) * count + k) * terms + t] =
-              shapes.term(t, values[k].data());
-    }
-  });
-  return spline_of(bent);
-}
-
-void write_side(const TableFiles& to, bool inside, bool falls) {
   const std::string name =
       std::string("kGgxFilmGlass") + (inside ? "Inside" : "Outside") + (falls ? "Rare" : "Dense");
-  const std::vector<float> round = side(inside, falls);
-  write_numbers(to, name, round);
+  const auto round = round_table(kRoundFilmGlass[falls], inside, falls, kPoints * kTerms,
+                                 weights_of<kPoints, kTerms>(inside));
+  write_numbers(files, name, round);
   FilmGlassTables tables{};
   tables.change[inside][falls] = round.data();
-  write_numbers(to, name + "Bent", bent_side(inside, falls, tables));
+  constexpr int points = kBentFilmPoints, terms = kBentFilmTerms;
+  const auto alike = [&tables, inside](const StretchedInterface<double>& seen, double eta,
+                                       double* to) {
+    const auto weights = round_film_weights(tables, seen, inside, eta);
+    double few[points * kTerms];
+    fewer_points<kPoints, points>(weights.data(), kTerms, few);
+    for (int m = 0; m < points; ++m) std::copy_n(few + m * kTerms, terms, to + m * terms);
+  };
+  write_numbers(files, name + "Bent",
+                bent_table(kBentFilmGlass[falls], inside, falls, points * terms,
+                           weights_of<points, terms>(inside), alike));
 }
 
 /// The moments over z of l(w), and then of each D_k(w), of materials/film_energy.h, outside.
@@ -147,12 +105,13 @@ Numbers<kPoints*(1 + kTerms)> losses(const Ggx<double>& facets, double glass) {
 
 std::vector<float> further(bool falls) {
   using namespace axes;
-  Grid grid({kFilmGlassAlpha, kFilmGlassAspect, kFilmGlassIndex, kPoints * (1 + kTerms)});
-  parallel(kFilmGlassAlpha * kFilmGlassAspect * kFilmGlassIndex, [&](int i) {
-    const double alpha = alpha_of(i / (kFilmGlassAspect * kFilmGlassIndex));
-    const double place = double(i / kFilmGlassIndex % kFilmGlassAspect) / (kFilmGlassAspect - 1);
+  Grid grid({kFurtherAlpha, kFurtherAspect, kFurtherIndex, kPoints * (1 + kTerms)});
+  parallel(kFurtherAlpha * kFurtherAspect * kFurtherIndex, [&](int i) {
+    const double alpha =
+        glass_alpha_at(double(i / (kFurtherAspect * kFurtherIndex)) / (kFurtherAlpha - 1));
+    const double place = double(i / kFurtherIndex % kFurtherAspect) / (kFurtherAspect - 1);
     const double wide = alpha * std::pow(10, place / 2);
-    const double glass = index_of(i % kFilmGlassIndex, falls);
+    const double glass = glass_index_at(double(i % kFurtherIndex) / (kFurtherIndex - 1), falls);
     put_weights<kPoints>(losses({{wide, alpha * alpha / wide}}, glass).of.data(), 1 + kTerms,
                          &grid.values[i * kPoints * (1 + kTerms)]);
   });

@@ -9,7 +9,6 @@
 
 #include "materials/glass_coat.h"
 #include "materials/tables/glass.h"
-#include "materials/tables/shapes.h"
 
 namespace mms::materials {
 namespace tables {
@@ -22,7 +21,6 @@ struct Side {
   std::string name() const {
     return std::string(inside ? "Inside" : "Outside") + (falls ? "Rare" : "Dense");
   }
-  double index_at(double place) const { return glass_index_at(place, falls); }
 };
 
 /// Those of further bounces, as a share of all of them.
@@ -49,75 +47,35 @@ std::array<double, Points> weights(const Facets& facets, double eta, bool inside
   return point_weights(sum.of);
 }
 
-/// The same by fewer points.
-std::array<double, kFewGlassPoints> fewer(const std::array<double, kGlassPoints>& weights) {
-  std::array<double, kFewGlassPoints> few{};
-  const auto& matrix = chebyshev_transfer<kGlassPoints, kFewGlassPoints>();
-  for (int i = 0; i < kGlassPoints; ++i)
-    for (int m = 0; m < kFewGlassPoints; ++m) few[m] += weights[i] * matrix[i][m];
-  return few;
-}
-
-/// From that of round ones.
-template <template <class> class Distribution>
-std::vector<float> bent_side(Side side, const GlassTables& round) {
-  const axes::BentGlassGrid& grid = axes::kBentGlass[side.falls];
-  constexpr int points = kFewGlassPoints;
-  const ShapeFit shapes(grid.degree);
-  const int count = shapes.count(), terms = shapes.terms();
-  Grid bent({grid.width, grid.index, grid.direction, points * terms});
-  parallel(grid.width * grid.index, [&](int i) {
-    const double like = glass_alpha_at(double(i / grid.index) / (grid.width - 1));
-    const double eta = side.index_at(double(i % grid.index) / (grid.index - 1));
-    std::vector<std::vector<double>> values(grid.direction * points, std::vector<double>(count));
-    for (int shape = 0; shape < count; ++shape) {
-      auto seen = shapes.facets_like(shape, like, axes::widening(eta, like));
-      const double x = seen.x, y = seen.y;
-      const Distribution<double> facets{{seen.wide, seen.narrow}};
-      const auto further_bounces = further<points>(facets, eta, side.inside);
-      for (int d = 0; d < grid.direction; ++d) {
-        const double z =
-            glass_cosine_at(side.inside, double(d) / (grid.direction - 1), like, eta, seen.root());
-        const double s = std::sqrt(1 - z * z);
-        seen.x = x * s, seen.y = y * s, seen.z = z;
-        const auto all =
-            weights<points>(facets, eta, side.inside, {seen.x, seen.y, z}, further_bounces);
-        const auto alike = fewer(round_weights(round, seen, side.inside, eta));
-        for (int m = 0; m < points; ++m) values[d * points + m][shape] = all[m] - alike[m];
-      }
-    }
-    for (int k = 0; k < grid.direction * points; ++k)
-      for (int t = 0; t < terms; ++t)
-        bent.values[(i * grid.direction * points + k) * terms + t] =
-            shapes.term(t, values[k].data());
-  });
-  return spline_of(bent);
+/// What writes those of facets of the given widths.
+template <int Points, template <class> class Distribution>
+auto weights_of(bool inside) {
+  return [inside](double ax, double ay, double eta) {
+    const Distribution<double> facets{{ax, ay}};
+    const auto further_bounces = further<Points>(facets, eta, inside);
+    return [=](Vec3d w, double* to) {
+      const auto all = weights<Points>(facets, eta, inside, w, further_bounces);
+      std::copy(all.begin(), all.end(), to);
+    };
+  };
 }
 
 template <template <class> class Distribution>
-void write_side(const TableFiles& to, const std::string& name, Side side) {
-  using namespace axes;
-  constexpr int widths = kGlassAlpha, indices = kGlassIndex;
-  const int directions = kGlassDirection[side.falls];
-  Grid grid({widths, indices, directions, kGlassPoints});
-  parallel(widths * indices, [&](int i) {
-    const double alpha = glass_alpha_at(double(i / indices) / (widths - 1));
-    const double eta = side.index_at(double(i % indices) / (indices - 1));
-    const Distribution<double> facets{{alpha, alpha}};
-    const auto further_bounces = further<kGlassPoints>(facets, eta, side.inside);
-    for (int d = 0; d < directions; ++d) {
-      const double z =
-          glass_cosine_at(side.inside, double(d) / (directions - 1), alpha, eta, alpha);
-      const auto all = weights<kGlassPoints>(facets, eta, side.inside, {std::sqrt(1 - z * z), 0, z},
-                                             further_bounces);
-      std::copy(all.begin(), all.end(), &grid.values[(i * directions + d) * kGlassPoints]);
-    }
-  });
-  const std::vector<float> round = spline_of(grid);
-  write_numbers(to, name + "Round" + side.name(), round);
+void write_side(const TableFiles& files, const std::string& name, Side side) {
+  const auto [inside, falls] = side;
+  const auto round = round_table(axes::kRoundGlass[falls], inside, falls, kGlassPoints,
+                                 weights_of<kGlassPoints, Distribution>(inside));
+  write_numbers(files, name + "Round" + side.name(), round);
   GlassTables tables{};
-  tables.round[side.inside][side.falls] = round.data();
-  write_numbers(to, name + "Bent" + side.name(), bent_side<Distribution>(side, tables));
+  tables.round[inside][falls] = round.data();
+  constexpr int few = kFewGlassPoints;
+  const auto alike = [&tables, inside = side.inside](const StretchedInterface<double>& seen,
+                                                     double eta, double* to) {
+    fewer_points<kGlassPoints, few>(round_weights(tables, seen, inside, eta).data(), 1, to);
+  };
+  write_numbers(files, name + "Bent" + side.name(),
+                bent_table(axes::kBentGlass[falls], inside, falls, few,
+                           weights_of<few, Distribution>(inside), alike));
 }
 
 template <template <class> class Distribution>

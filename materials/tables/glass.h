@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "materials/glass_coat.h"
 #include "materials/tables/grid.h"
 #include "materials/tables/losses.h"
 #include "materials/tables/points.h"
+#include "materials/tables/shapes.h"
 #include "materials/tables/slopes.h"
 
 namespace mms::materials::tables {
@@ -74,6 +76,71 @@ Moments<Points> further_outside(const Facets& facets, double glass) {
 inline std::vector<float> spline_of(const Grid& grid) {
   const std::vector<double> of = grid.spline(1);
   return {of.begin(), of.end()};
+}
+
+/// The table of round facets for light on one side that meets a lower index, where it `falls`, or a
+/// higher one. `of(ax, ay, eta)` is, of facets of these widths, what writes the `count` numbers of
+/// a direction: called as (w, to).
+template <class Of>
+std::vector<float> round_table(const axes::GlassGrid& nodes, bool inside, bool falls, int count,
+                               const Of& of) {
+  Grid grid({nodes.width, nodes.index, nodes.direction, count});
+  parallel(nodes.width * nodes.index, [&](int i) {
+    const double alpha = glass_alpha_at(double(i / nodes.index) / (nodes.width - 1));
+    const double eta = glass_index_at(double(i % nodes.index) / (nodes.index - 1), falls);
+    const auto write = of(alpha, alpha, eta);
+    for (int d = 0; d < nodes.direction; ++d) {
+      const double z =
+          glass_cosine_at(inside, double(d) / (nodes.direction - 1), alpha, eta, alpha);
+      write(Vec3d{std::sqrt(1 - z * z), 0, z}, &grid.values[(i * nodes.direction + d) * count]);
+    }
+  });
+  return spline_of(grid);
+}
+
+/// That of stretched facets, as polynomials over their shapes, of what they have above what
+/// `alike(seen, eta, to)` says of the round ones.
+template <class Of, class Alike>
+std::vector<float> bent_table(const axes::GlassGrid& nodes, bool inside, bool falls, int count,
+                              const Of& of, const Alike& alike) {
+  const ShapeFit shapes(nodes.degree);
+  const int terms = shapes.terms();
+  Grid grid({nodes.width, nodes.index, nodes.direction, count * terms});
+  parallel(nodes.width * nodes.index, [&](int i) {
+    const double like = glass_alpha_at(double(i / nodes.index) / (nodes.width - 1));
+    const double eta = glass_index_at(double(i % nodes.index) / (nodes.index - 1), falls);
+    std::vector<std::vector<double>> values(nodes.direction * count);
+    std::vector<double> all(count), round(count);
+    for (int shape = 0; shape < shapes.count(); ++shape) {
+      auto seen = shapes.facets_like(shape, like, axes::widening(eta, like));
+      const double x = seen.x, y = seen.y;
+      const auto write = of(seen.wide, seen.narrow, eta);
+      for (int d = 0; d < nodes.direction; ++d) {
+        const double z =
+            glass_cosine_at(inside, double(d) / (nodes.direction - 1), like, eta, seen.root());
+        const double s = std::sqrt(1 - z * z);
+        seen.x = x * s, seen.y = y * s, seen.z = z;
+        write(Vec3d{seen.x, seen.y, z}, all.data());
+        alike(seen, eta, round.data());
+        for (int m = 0; m < count; ++m) values[d * count + m].push_back(all[m] - round[m]);
+      }
+    }
+    for (std::size_t k = 0; k < values.size(); ++k)
+      for (int t = 0; t < terms; ++t)
+        grid.values[(i * values.size() + k) * terms + t] = shapes.term(t, values[k].data());
+  });
+  return spline_of(grid);
+}
+
+/// Of weights of `From` points those of `To`, for each of `count` functions: [point][function].
+template <std::size_t From, std::size_t To>
+void fewer_points(const double* weights, int count, double* to) {
+  const auto& matrix = chebyshev_transfer<From, To>();
+  for (std::size_t m = 0; m < To; ++m)
+    for (int k = 0; k < count; ++k) {
+      double& sum = to[m * count + k] = 0;
+      for (std::size_t n = 0; n < From; ++n) sum += weights[n * count + k] * matrix[n][m];
+    }
 }
 
 }  // namespace mms::materials::tables
