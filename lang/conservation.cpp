@@ -2,6 +2,8 @@
 #include "lang/conservation.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace mms::lang {
 
@@ -21,10 +23,24 @@ std::string_view head(const MaterialTree& m) {
   return m.row->signature.substr(0, m.row->signature.find('('));
 }
 
+/// The least of the colours of a model that is no combiner, unknown ones being 0; 0 without any.
+double least_colour(const Module& module, const MaterialTree& m) {
+  double least = std::numeric_limits<double>::infinity();
+  std::string_view rest = m.row->signature.substr(head(m).size());
+  for (std::size_t k = 0; !rest.empty(); ++k) {
+    const std::string_view item = rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(rest.size(), item.size() + 1));
+    for (std::string_view name : {"colour", "reflected", "transmitted"})
+      if (item.find(name) != item.npos)
+        least = std::min(least, std::max(known_number(module, m.params[k]).value_or(0), 0.0));
+  }
+  return std::isinf(least) ? 0 : least;
+}
+
 }  // namespace
 
 double stated_weight(const Module& module, const MaterialTree& m) {
-  const std::string_view signature = m.row->signature, row = head(m);
+  const std::string_view row = head(m);
   const double first = m.params.empty() ? -1 : known_number(module, m.params[0]).value_or(-1);
   const double weight = std::clamp(first, 0.0, 1.0);  // of a factor; unknown: 0
   const auto part = [&](std::size_t k) { return stated_weight(module, *m.children[k]); };
@@ -33,7 +49,7 @@ double stated_weight(const Module& module, const MaterialTree& m) {
   if (row == "material scale") return weight * part(0);
   if (row == "material mix" && first >= 0) return (1 - weight) * part(0) + weight * part(1);
   if (m.children.size() == 2) return std::min(part(0), part(1));
-  return signature.substr(row.size()).starts_with("(spectrum colour") ? std::max(first, 0.0) : 0;
+  return least_colour(module, m);
 }
 
 std::optional<double> inverted_coat_index(const Module& module, const MaterialTree& m) {

@@ -14,8 +14,8 @@ namespace mms::lang {
 std::optional<double> known_number(const Module& module, Ref r);
 
 /// At least so much of the light do the stated colours and factors of `m` reflect or transmit: sums
-/// add, mixtures lie between their parts. What is known only at run time, or has no colour, counts
-/// as 0, so a result above 1 is certain.
+/// add, mixtures lie between their parts, and so does glass between the tints of both of its sides.
+/// What is known only at run time, or has no colour, counts as 0, so a result above 1 is certain.
 double stated_weight(const Module& module, const MaterialTree& m);
 
 /// The index of a coat with no other above it, where that is known and below 1, so that it counts

@@ -2,6 +2,7 @@
 #include "materials/weight.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "base/spectrum.h"
 
@@ -15,6 +16,24 @@ Spectrumf between(const Spectrumf& a, const Spectrumf& b, const Spectrumf& share
   for (int j = 0; j < kWavelengths; ++j)
     to[j] = a[j] + (b[j] - a[j]) * std::clamp(share[j], 0.0f, 1.0f);
   return to;
+}
+
+Spectrumf least_of(const Spectrumf& a, const Spectrumf& b) {
+  return Spectrumf::map([](float x, float y) { return std::min(x, y); }, a, b);
+}
+
+/// The least of the colours of a model, whose numbers begin at `p`; 0 without any.
+Spectrumf least_colour(const Formals& f, const float* p) {
+  std::optional<Spectrumf> least;
+  for (int i = 0; i < f.count; ++i) {
+    if (f.tint[i]) {
+      Spectrumf colour;
+      std::copy_n(p, kWavelengths, colour.v.begin());
+      least = least ? least_of(*least, colour) : colour;
+    }
+    p += f.kinds[i] == 's' ? kWavelengths : 1;
+  }
+  return least.value_or(Spectrumf(0.0f));
 }
 
 Spectrumf weight_of(const Layout& layout, const float* params, int k) {
@@ -38,9 +57,8 @@ Spectrumf weight_of(const Layout& layout, const float* params, int k) {
     default:
       break;
   }
-  if (node.child_count == 2)
-    return Spectrumf::map([](float x, float y) { return std::min(x, y); }, part(0), part(1));
-  return formals(node.lobe).tint[0] ? first() : Spectrumf(0.0f);
+  if (node.child_count == 2) return least_of(part(0), part(1));
+  return least_colour(formals(node.lobe), params + node.first_param);
 }
 
 }  // namespace

@@ -21,3 +21,11 @@ surface x
     bsdf = fresnel_mix(matte(0.9), mirror(0.9)) + matte(0.2);
 //  ^^^^ warning W0407: the weights of this material add up to 1.1
 end
+surface y
+    bsdf = glossy_refraction(1.5, 60, 20);
+//  ^^^^ warning W0407: the weights of this material add up to 60
+end
+surface z
+    bsdf = dielectric(1.5, 0.2, 1.1, 1.3);
+//  ^^^^ warning W0407: the weights of this material add up to 1.1
+end

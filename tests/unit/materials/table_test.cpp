@@ -85,6 +85,9 @@ TEST_CASE("stated weights: sums add, mixtures lie between their parts, what has 
   CHECK(weight(fresnel_mix(matte(0.5), mirror(0.25), 1.5)) == 0.25f);
   CHECK(weight(turn(add(matte(0.75), mirror(1)), 0.5)) == 1.75f);
   CHECK(weight(tilt(add(matte(0.75), mirror(1)), 0.5, 0)) == 1.75f);
-  CHECK(weight(dielectric(1.5)) == 0);
+  CHECK(weight(dielectric(1.5)) == 1);
+  CHECK(weight(dielectric(1.5, 0.3, 0.75, 0.5)) == 0.5f);
+  CHECK(weight(glossy_refraction(0.7, {60, 20}, 1.5)) == 1.5f);
+  CHECK(weight(conductor(0.2, 3.4, 0.3)) == 0);
   CHECK(materials::stated_weight(Layout(), nullptr) == 0);
 }
