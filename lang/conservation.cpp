@@ -2,8 +2,7 @@
 #include "lang/conservation.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <optional>
 
 namespace mms::lang {
 
@@ -25,16 +24,18 @@ std::string_view head(const MaterialTree& m) {
 
 /// The least of the colours of a model that is no combiner, unknown ones being 0; 0 without any.
 double least_colour(const Module& module, const MaterialTree& m) {
-  double least = std::numeric_limits<double>::infinity();
+  std::optional<double> least;
   std::string_view rest = m.row->signature.substr(head(m).size());
   for (std::size_t k = 0; !rest.empty(); ++k) {
     const std::string_view item = rest.substr(0, rest.find(','));
     rest.remove_prefix(std::min(rest.size(), item.size() + 1));
-    for (std::string_view name : {"colour", "reflected", "transmitted"})
-      if (item.find(name) != item.npos)
-        least = std::min(least, std::max(known_number(module, m.params[k]).value_or(0), 0.0));
+    for (std::string_view name : {"colour", "reflected", "transmitted"}) {
+      if (item.find(name) == item.npos) continue;
+      const double colour = std::max(known_number(module, m.params[k]).value_or(0), 0.0);
+      least = std::min(least.value_or(colour), colour);
+    }
   }
-  return std::isinf(least) ? 0 : least;
+  return least.value_or(0);
 }
 
 }  // namespace
