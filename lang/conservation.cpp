@@ -29,11 +29,9 @@ double least_colour(const Module& module, const MaterialTree& m) {
   for (std::size_t k = 0; !rest.empty(); ++k) {
     const std::string_view item = rest.substr(0, rest.find(','));
     rest.remove_prefix(std::min(rest.size(), item.size() + 1));
-    for (std::string_view name : {"colour", "reflected", "transmitted"}) {
-      if (item.find(name) == item.npos) continue;
-      const double colour = std::max(known_number(module, m.params[k]).value_or(0), 0.0);
-      least = std::min(least.value_or(colour), colour);
-    }
+    if (!vm::is_colour(item)) continue;
+    const double colour = std::max(known_number(module, m.params[k]).value_or(0), 0.0);
+    least = std::min(least.value_or(colour), colour);
   }
   return least.value_or(0);
 }

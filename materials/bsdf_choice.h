@@ -82,8 +82,7 @@ void Bsdf<R>::know_material(Choice& choice) const {
   find_coats(*layout_, params_, choice.coats);
   if (layout_->transmits())
     find_glass(*layout_, params_, choice.coats, choice.glass, [&](int lobe) {
-      return with_model(lobe, false,
-                        [](const auto& model) { return detail::knows_coats<R>(model); });
+      return with_model(lobe, false, [](const auto& model) { return detail::knows_coats(model); });
     });
   for (auto& known : choice.spread_known) known.reset();
   choice.solved.reset();

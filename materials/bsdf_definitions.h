@@ -83,9 +83,9 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
           total.f += l.f * glass_weight(w, choice.coats[above.once_base],
                                         choice.glass.of[above.once_base], wo, wi);
         else
-          total.f += l.f * (detail::kLambert<R, Model>      ? w.lambert
-                            : detail::knows_coats<R>(model) ? whole_weight(w, choice.coats, above)
-                                                            : w.other);
+          total.f += l.f * (detail::kLambert<R, Model>   ? w.lambert
+                            : detail::knows_coats(model) ? whole_weight(w, choice.coats, above)
+                                                         : w.other);
       }
       return 0;
     });

@@ -42,11 +42,9 @@ template <class R, class M>
 inline constexpr bool kLambert = std::is_same_v<M, Matte<R>> || std::is_same_v<M, Translucent<R>>;
 
 /// Whether the model is an interface of which it is known what coats send back.
-template <class R, class M>
+template <class M>
 inline bool knows_coats(const M& model) {
-  if constexpr (std::is_same_v<M, Refraction<R>> || std::is_same_v<M, GlossyRefraction<R>>)
-    return true;
-  else if constexpr (requires { model.knows_coats(); })
+  if constexpr (requires { model.knows_coats(); })
     return model.knows_coats();
   else
     return false;

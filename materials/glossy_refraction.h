@@ -36,6 +36,8 @@ struct GlossyRefraction {
   explicit GlossyRefraction(const R* p) : numbers(p), lobe(p + kWavelengths) {}
 
   bool specular() const { return lobe.specular(); }
+  /// Whether it is known what coats send back.
+  bool knows_coats() const { return true; }
   /// Whether coats lie on the side of the higher index, at wavelength j.
   bool falls(int j) const { return relative_eta(numbers[j], Vec3<R>{0, 0, 1}) < 1; }
   /// How coats see what passes at wavelength j: as the lobe of `glossy_through` that it is outside.

@@ -35,6 +35,9 @@ struct Refraction {
 
   explicit Refraction(const R* p) : ior(p), colour(weight_at(p + kWavelengths)) {}
 
+  /// Whether it is known what coats send back.
+  bool knows_coats() const { return true; }
+
   Spectrum<R> estimate(Vec3<R>) const { return colour; }
 
   SpecularTerms<R> terms(Vec3<R> wo) const {

@@ -44,7 +44,7 @@ constexpr unsigned traits(Lobe lobe) { return kTraits[static_cast<int>(lobe)]; }
 struct Formals {
   char kinds[8] = {};
   bool index[8] = {};  ///< a refractive index
-  bool tint[8] = {};   ///< a colour: the model's weight for light is at most the largest of these
+  bool tint[8] = {};   ///< a colour (vm::is_colour)
   int count = 0;
 };
 
@@ -61,8 +61,7 @@ constexpr Formals formals(std::string_view signature) {
     for (std::string_view type : {"material ", "spectrum ", "real "})
       if (item.starts_with(type)) kind = type[0];
     if (item.empty()) continue;
-    for (std::string_view tint : {"colour", "reflected", "transmitted"})
-      f.tint[f.count] |= kind == 's' && item.find(tint) != item.npos;
+    f.tint[f.count] = kind == 's' && vm::is_colour(item);
     f.index[f.count] = kind == 's' && item.find("ior") != item.npos;
     f.kinds[f.count++] = kind;
   }

@@ -94,6 +94,14 @@ struct Builtin {
   int lobe = -1;
 };
 
+/// Whether a formal of a row whose result is `material`, as its signature names it, is a colour: at
+/// most the largest of its colours does a model weigh light by.
+constexpr bool is_colour(std::string_view formal) {
+  for (std::string_view name : {"colour", "reflected", "transmitted"})
+    if (formal.find(name) != formal.npos) return true;
+  return false;
+}
+
 namespace detail {
 
 template <class T>
