@@ -37,7 +37,7 @@ struct Surface {
 
   Surface(const materials::Layout& layout, const R* params) : bsdf(layout, params) {}
   auto eval(Vec3<R> wo, Vec3<R> wi) const { return evaluate(wo, wi).f; }
-  auto pdf(Vec3<R> wo, Vec3<R> wi) const { return evaluate(wo, wi).pdf; }
+  auto pdf(Vec3<R> wo, Vec3<R> wi) const { return bsdf.pdf(wo, wi, Mode::Radiance, choose(wo)); }
   auto evaluate(Vec3<R> wo, Vec3<R> wi) const {
     return bsdf.evaluate(wo, wi, Mode::Radiance, choose(wo));
   }

@@ -129,7 +129,7 @@ class Bsdf {
   Spectrum<R> eval(Vec3<R> wo, Vec3<R> wi, Mode mode) const { return evaluate(wo, wi, mode).f; }
 
   /// Densities without deltas.
-  Spectrum<R> pdf(Vec3<R> wo, Vec3<R> wi, Mode mode) const { return evaluate(wo, wi, mode).pdf; }
+  Spectrum<R> pdf(Vec3<R> wo, Vec3<R> wi, Mode mode) const { return pdf(wo, wi, mode, choose(wo)); }
 
   /// How likely each lobe is chosen, for each wavelength as the hero.
   struct Choice {
@@ -166,11 +166,13 @@ class Bsdf {
     return choice;
   }
 
-  /// `eval` and `pdf` at once, for about the price of one.
+  /// `eval` and `pdf` at once, for about the price of `eval`.
   Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode) const {
     return evaluate(wo, wi, mode, choose(wo));
   }
   Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const;
+  /// The densities of that, to the bit.
+  Spectrum<R> pdf(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const;
 
   /// Draws `wi` for the hero from three numbers in [0, 1).
   std::optional<BsdfSample<R>> sample(Vec3<R> wo, R u_lobe, R u1, R u2, Mode mode) const {
@@ -185,6 +187,10 @@ class Bsdf {
   bool specular_only() const;
 
  private:
+  /// Of `kDensities` no f is asked for, which takes longer.
+  template <bool kDensities>
+  Lobes<R> lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const;
+  template <bool kDensities>
   Lobes<R> sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const;
   std::optional<BsdfSample<R>> sample_specular(int lobe, Vec3<R> wo, R u, Mode mode,
                                                const Choice& choice) const;

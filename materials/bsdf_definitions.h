@@ -18,12 +18,24 @@ namespace mms::materials {
 
 template <class R>
 Lobes<R> Bsdf<R>::evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const {
+  return lobes<false>(wo, wi, mode, choice);
+}
+
+template <class R>
+Spectrum<R> Bsdf<R>::pdf(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const {
+  return lobes<true>(wo, wi, mode, choice).pdf;
+}
+
+template <class R>
+template <bool kDensities>
+Lobes<R> Bsdf<R>::lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const {
   if (node_count() == 0 || in_surface(wo) || in_surface(wi)) return {};
-  if (node_count() > 1) return sum_of_lobes(wo, wi, mode, choice);
+  if (node_count() > 1) return sum_of_lobes<kDensities>(wo, wi, mode, choice);
   return with_model(0, Lobes<R>(), [&](const auto& model) {
     Lobes<R> l;
     if constexpr (detail::CanBeSmooth<std::decay_t<decltype(model)>>) {
-      if (!detail::is_specular(model)) l = detail::evaluate<R>(model, wo, wi, mode, 0, choice);
+      if (!detail::is_specular(model))
+        l = detail::evaluate<kDensities, R>(model, wo, wi, mode, 0, choice);
       l.pdf *= choice.probability.of[0];
     }
     return l;
@@ -31,22 +43,24 @@ Lobes<R> Bsdf<R>::evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choi
 }
 
 template <class R>
+template <bool kDensities>
 Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& choice) const {
   Lobes<R> total;
   PerNode<NodeWeight<R>> weights;
-  weigh(*layout_, params_, choice.frames, choice.coats, wo, wi, mode, weights);
+  if (!kDensities) weigh(*layout_, params_, choice.frames, choice.coats, wo, wi, mode, weights);
   for (int i = 0; i < node_count(); ++i) {
     const OverGlass<R>* glass = over_glass(i, choice);
     const bool spreads = glass && same_side(wo, wi) && !(glass->mean == Spectrum<R>());
     const R share = spreads ? choice.frames.share(i, wo, wi, mode) : R(0);
     if (share > 0) {
       const int base = coat_base(layout_->nodes()[i]);
-      const Spectrum<R> spread = sent_back(base, wi, choice).spread;
+      const Spectrum<R> spread = kDensities ? Spectrum<R>() : sent_back(base, wi, choice).spread;
       const R density = std::abs(choice.frames.seen(i, wi).z) / kPi<R>;
       for (int j = 0; j < kWavelengths; ++j) {
         if (!(glass->mean[j] > 0)) continue;
-        total.f[j] += weights.of[base].crossing[j] * glass->colour[j] * glass->o.spread[j] *
-                      spread[j] * share / (kPi<R> * glass->mean[j]);
+        if (!kDensities)
+          total.f[j] += weights.of[base].crossing[j] * glass->colour[j] * glass->o.spread[j] *
+                        spread[j] * share / (kPi<R> * glass->mean[j]);
         total.pdf[j] += choice.probability.of[i][j] * (1 - glass->mirror_share(j)) * density;
       }
     }
@@ -54,8 +68,9 @@ Lobes<R> Bsdf<R>::sum_of_lobes(Vec3<R> wo, Vec3<R> wi, Mode mode, const Choice& 
       using Model = std::decay_t<decltype(model)>;
       if constexpr (detail::CanBeSmooth<Model>) {
         if (detail::is_specular(model)) return 0;
-        const Lobes<R> l = detail::evaluate<R>(model, wo, wi, mode, i, choice);
+        const Lobes<R> l = detail::evaluate<kDensities, R>(model, wo, wi, mode, i, choice);
         total.pdf += l.pdf * choice.probability.of[i];
+        if constexpr (kDensities) return 0;
         const NodeWeight<R>& w = weights.of[i];
         const NodeAbove& above = choice.coats.above.of[i];
         const auto coated = [&](const Spectrum<R>& counted, const Spectrum<R>& g_i) {

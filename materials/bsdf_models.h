@@ -77,8 +77,9 @@ inline auto with_seen(const M& model, int i, const typename Bsdf<R>::Choice& cho
   return visit(choice.models[i].template get<decltype(model.solved())>(), choice.seen.of[i]);
 }
 
-/// What the model of node `i` gives and takes, as `choice` has seen it. \pre CanBeSmooth
-template <class R, class M>
+/// What the model of node `i` gives and takes, as `choice` has seen it; of `kDensities` f may lack
+/// what takes long. \pre CanBeSmooth
+template <bool kDensities, class R, class M>
 inline Lobes<R> evaluate(const M& model, Vec3<R> wo, Vec3<R> wi, Mode mode, int i,
                          const typename Bsdf<R>::Choice& choice) {
   const R share = choice.frames.share(i, wo, wi, mode);
@@ -86,8 +87,12 @@ inline Lobes<R> evaluate(const M& model, Vec3<R> wo, Vec3<R> wi, Mode mode, int 
   wo = choice.frames.seen(i, wo), wi = choice.frames.seen(i, wi);
   Lobes<R> l;
   if constexpr (requires { model.solved(); })
-    l = with_seen<R>(model, i, choice,
-                     [&](const auto&... known) { return model.evaluate(wo, wi, mode, known...); });
+    l = with_seen<R>(model, i, choice, [&](const auto&... known) {
+      if constexpr (kDensities && requires { model.once(wo, wi, mode, known...); })
+        return model.once(wo, wi, mode, known...);
+      else
+        return model.evaluate(wo, wi, mode, known...);
+    });
   else
     l = model.evaluate(wo, wi, mode);
   if (share != 1) l.f *= share;

@@ -67,6 +67,11 @@ struct InterfaceSolved {
   BounceSampling<R> bounces = {};                      ///< how directions of further ones are drawn
   Spectrum<R> mean[2];                                 ///< over the hemisphere, what is lost
   Spectrum<R> transmit[2];                             ///< share of that which goes to the far side
+
+  /// Where what is lost at wavelength j goes.
+  FresnelSplit<R> further(bool inside, int j) const {
+    return {1 - transmit[inside][j], transmit[inside][j]};
+  }
 };
 
 template <class R, template <class> class Distribution, class Face = BareFace<R>>
@@ -167,22 +172,31 @@ struct RoughInterface {
 
   Lobes<R> evaluate(Vec3<R> wo, Vec3<R> wi, Mode mode, const Solved& solved,
                     const FacetsSeen<R>& seen) const {
+    Lobes<R> out = once(wo, wi, mode, solved, seen);
     const bool reflects = same_side(wo, wi);
-    Lobes<R> out = reflects ? evaluate_reflection(wo, wi, seen.shadow)
-                            : evaluate_transmission(wo, wi, seen.shadow, mode);
-    const R pdf = solved.bounces.pdf(std::abs(wi.z));
-    const Spectrum<R>&mean = solved.mean[wi.z < 0], &transmit = solved.transmit[wo.z < 0];
+    const Spectrum<R>& mean = solved.mean[wi.z < 0];
     const Spectrum<R> spread = lost(wi, solved);  // by further bounces
     R eta = 1;
     for (int j = 0; j < kWavelengths; ++j) {
       if (!same_index(j)) eta = rough_eta(j, wo);
       const R shape = spread[j] / (kPi<R> * mean[j]);
-      const FresnelSplit<R> further{1 - transmit[j], transmit[j]};
+      const FresnelSplit<R> further = solved.further(wo.z < 0, j);
       const R f =
           reflects ? further.reflected * reflected[j] : further.transmitted * transmitted[j];
       const R scale = reflects || mode == Mode::Importance ? R(1) : 1 / (eta * eta);
       out.f[j] += seen.lost[j] * f * shape * scale;
-      const Choice c = choose(j, further);
+    }
+    return out;
+  }
+  /// The same, but f of the first bounce alone: what goes on takes as long as all else.
+  Lobes<R> once(Vec3<R> wo, Vec3<R> wi, Mode mode, const Solved& solved,
+                const FacetsSeen<R>& seen) const {
+    const bool reflects = same_side(wo, wi);
+    Lobes<R> out = reflects ? evaluate_reflection(wo, wi, seen.shadow)
+                            : evaluate_transmission(wo, wi, seen.shadow, mode);
+    const R pdf = solved.bounces.pdf(std::abs(wi.z));
+    for (int j = 0; j < kWavelengths; ++j) {
+      const Choice c = choose(j, solved.further(wo.z < 0, j));
       out.pdf[j] = (1 - seen.lost[j]) * out.pdf[j] +
                    seen.lost[j] * (reflects ? c.reflect : c.transmit) * pdf;
     }
@@ -194,8 +208,7 @@ struct RoughInterface {
     const Vec3<R> up = to_upper(wo, wo);
     const R lost = seen.lost[0];
     if (u_lobe < lost) {
-      const R transmit = solved.transmit[wo.z < 0][0];
-      const Choice c = choose(0, {1 - transmit, transmit});
+      const Choice c = choose(0, solved.further(wo.z < 0, 0));
       if (!(c.reflect + c.transmit > 0)) return false;
       wi = solved.bounces.sample(u1, u2);
       if (!(wi.z > 0)) return false;

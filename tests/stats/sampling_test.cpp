@@ -86,9 +86,7 @@ void check_samples_follow(const std::vector<Case>& cases, std::span<const double
              return normalize(Vec3d(s->wi));
            },
            .pdf =
-               [&](Vec3d wi) {
-                 return exact.evaluate(wo_exact, wi, Mode::Radiance, choice_exact).pdf[0];
-               },
+               [&](Vec3d wi) { return exact.pdf(wo_exact, wi, Mode::Radiance, choice_exact)[0]; },
            .jumps = jumps(c.material),
            .seed = seed});
       worst = std::min(worst, r.p_value);
@@ -198,6 +196,7 @@ TEST_CASE("a sample reports what eval and pdf say, and its mean weight is the al
         if (!s || s->specular) continue;
         const auto l = bsdf.evaluate(wo, s->wi, Mode::Importance, another);
         wrong += !(s->f == l.f) + !(s->pdf == l.pdf) + (s->transmitted != (s->wi.z * wo.z < 0));
+        wrong += !(bsdf.pdf(wo, s->wi, Mode::Importance, another) == l.pdf);
       }
       CHECK_MESSAGE(wrong == 0, c.name, " at ", degrees);
       stats::Moments drawn;

@@ -367,8 +367,7 @@ Mass mass(const Material& m, double degrees, int draws) {
          if (!s) return {};
          return Drawn{Vec3d(s->wi), s->specular ? double(s->pdf[0]) : 0};
        }),
-       .pdf =
-           [&](Vec3d wi) { return bsdf.evaluate(wo, Vec3<R>(wi), Mode::Radiance, choice).pdf[0]; },
+       .pdf = [&](Vec3d wi) { return bsdf.pdf(wo, Vec3<R>(wi), Mode::Radiance, choice)[0]; },
        .axis = {0, 0, 1},
        .across = {-wo.y, wo.x, 0}},
       draws);
