@@ -162,19 +162,22 @@ std::string repeated(std::string_view what, int times) {
   return all;
 }
 
-std::vector<fs::path> scripts() {
-  std::vector<fs::path> all;
-  for (const auto& e : fs::recursive_directory_iterator(kFolder)) {
-    // `parts` folders hold what the scripts import.
-    if (e.path().extension() == ".mms" && e.path().parent_path().filename() != "parts")
-      all.push_back(e.path());
-  }
-  std::sort(all.begin(), all.end());
+const std::vector<fs::path>& scripts() {
+  static const std::vector<fs::path> all = [] {
+    std::vector<fs::path> found;
+    for (const auto& e : fs::recursive_directory_iterator(kFolder)) {
+      // `parts` folders hold what the scripts import.
+      if (e.path().extension() == ".mms" && e.path().parent_path().filename() != "parts")
+        found.push_back(e.path());
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }();
   return all;
 }
 
 std::string name_of(const fs::path& script) {
-  return fs::relative(script, kFolder).generic_string();
+  return script.lexically_relative(kFolder).generic_string();
 }
 
 const std::vector<Limit>& limit_scripts() {

@@ -11,7 +11,7 @@
 namespace mms::golden {
 
 /// Every script under tests/golden that is run by itself, sorted.
-std::vector<std::filesystem::path> scripts();
+const std::vector<std::filesystem::path>& scripts();
 /// Its path from tests/golden.
 std::string name_of(const std::filesystem::path& script);
 

@@ -463,11 +463,11 @@ void check_agreement(const lang::SourcePtr& source, const lang::LinkOptions& opt
   }
 }
 
-Outcome examine(const lang::SourcePtr& source, Thoroughness how) {
+Outcome examine(const lang::SourcePtr& source) {
   Outcome outcome;
   Examination e(source, outcome);
   e.messages();
-  if (how == Thoroughness::Everything) e.values();
+  e.values();
   return outcome;
 }
 

@@ -54,8 +54,6 @@ Expectations read_expectations(const lang::Source& source);
 /// Numbers of a list, in whatever brackets; `true` is 1.
 std::vector<double> numbers_of(const std::string& text);
 
-enum class Thoroughness { Messages, Everything };
-
 struct Outcome {
   std::string known_issue;
   std::vector<std::string> failures;
@@ -63,7 +61,7 @@ struct Outcome {
 };
 
 /// Compiles the script and checks all that it says.
-Outcome examine(const lang::SourcePtr& source, Thoroughness how = Thoroughness::Everything);
+Outcome examine(const lang::SourcePtr& source);
 
 /// All levels, lane counts and machines agree; what does not is added to `failures`. The double
 /// machine is left out where `near` is infinite.

@@ -27,6 +27,7 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "tests/golden/corpus.h"
@@ -35,12 +36,20 @@
 namespace mms::golden {
 namespace {
 
+/// What became of a script, which is looked at once.
+const Outcome& examined(const std::filesystem::path& path) {
+  static std::map<std::filesystem::path, Outcome> known;
+  const auto found = known.find(path);
+  if (found != known.end()) return found->second;
+  const auto source = api::read_source(path.string());
+  REQUIRE(source);
+  return known[path] = examine(*source);
+}
+
 TEST_CASE("golden scripts") {
   for (const std::filesystem::path& path : scripts()) {
     SUBCASE(name_of(path).c_str()) {
-      const auto source = api::read_source(path.string());
-      REQUIRE(source);
-      const Outcome outcome = examine(*source);
+      const Outcome& outcome = examined(path);
       std::string all;
       for (const std::string& f : outcome.failures) all += "\n  " + f;
       if (outcome.known_issue.empty()) {
@@ -54,9 +63,8 @@ TEST_CASE("golden scripts") {
 }
 
 TEST_CASE("golden scripts are many, and each says its rule first") {
-  const auto all = scripts();
-  CHECK(all.size() >= 300);
-  for (const std::filesystem::path& path : all) {
+  CHECK(scripts().size() >= 300);
+  for (const std::filesystem::path& path : scripts()) {
     CAPTURE(name_of(path));
     const auto source = api::read_source(path.string());
     REQUIRE(source);
@@ -67,9 +75,7 @@ TEST_CASE("golden scripts are many, and each says its rule first") {
 TEST_CASE("every message is provoked by a golden script") {
   std::set<std::string> provoked;
   for (const std::filesystem::path& path : scripts()) {
-    const auto source = api::read_source(path.string());
-    REQUIRE(source);
-    const Outcome outcome = examine(*source, Thoroughness::Messages);
+    const Outcome& outcome = examined(path);
     if (outcome.known_issue.empty()) provoked.insert(outcome.codes.begin(), outcome.codes.end());
   }
   // And by the large ones, which limits_test.cpp looks at.
