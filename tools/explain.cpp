@@ -30,7 +30,7 @@ bool speaks_of(const lang::DiagInfo& row, const std::string& word) {
     return std::tolower(a) == std::tolower(b);
   };
   return std::ranges::any_of(std::array{row.name, row.text}, [&](std::string_view text) {
-    return !std::ranges::search(text, word, same).empty();
+    return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
   });
 }
 

@@ -78,8 +78,9 @@ std::array<double, 2> bent_widths(double root, double place) {
 template <template <class> class Distribution>
 std::vector<float> stretched_difference(bool rising, const InterfaceTables& round) {
   using namespace axes;
-  const auto [widths, indices, directions, degree] = round.bent[!rising];
-  const ShapeFit shapes(degree);
+  const BentGrid& nodes = round.bent[!rising];
+  const int widths = nodes.width, indices = nodes.index, directions = nodes.direction;
+  const ShapeFit shapes(nodes.degree);
   const int terms = shapes.terms();
   Grid fitted({widths, indices, directions, terms});
   parallel(widths * indices * directions, [&](int i) {

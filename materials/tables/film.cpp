@@ -87,8 +87,9 @@ Grid round_quotients(bool rising) {
 /// What stretched ones have above those.
 Grid stretched_quotients(bool rising, const FilmTables& round) {
   using namespace axes;
-  const auto [widths, indices, directions, degree] = kFilmBent[!rising];
-  const ShapeFit shapes(degree);
+  const BentGrid& nodes = kFilmBent[!rising];
+  const int widths = nodes.width, indices = nodes.index, directions = nodes.direction;
+  const ShapeFit shapes(nodes.degree);
   const int terms = shapes.terms();
   Grid grid({widths, indices, directions, terms * kFilmTerms});
   parallel(widths * indices, [&](int i) {
