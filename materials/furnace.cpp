@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materials/furnace.h"
 
+#include <memory>
+
 #include "materials/bsdf.h"
 #include "materials/phase.h"
 
@@ -47,25 +49,57 @@ struct Mean {
   double mean = 0, variance = 0;
 };
 
-/// The weight of the sample that `u` draws; 0 where there is none. In a furnace the side of the
-/// larger index is brighter, which radiance would have to be told; of one side alone it is what is
-/// seen, also of what is not reciprocal.
-double weight_of(const Bsdf<double>& bsdf, Vec3d wo, Vec3d u) {
-  const Mode mode = bsdf.transmits() ? Mode::Importance : Mode::Radiance;
-  const auto s = bsdf.sample(wo, u.x, u.y, u.z, mode);
-  return s ? s->f[0] * std::abs(s->wi.z) / s->pdf[0] : 0;
-}
+/// A surface, and what is kept of it from one direction to the next.
+class Surface {
+ public:
+  Surface(const Layout& layout, const double* numbers) : bsdf_(layout, numbers) {}
 
-double weight_of(const Phase<double>& phase, Vec3d wo, Vec3d u) {
-  const auto s = phase.sample(wo, u.x, u.y, u.z);
-  return s ? s->f[0] / s->pdf[0] : 0;
-}
+  /// From here on light is seen along `wo`.
+  void see(Vec3d wo) {
+    wo_ = wo;
+    bsdf_.choose(wo, *choice_);
+  }
+  /// Of the sample that `u` draws; 0 where there is none. In a furnace the side of the larger index
+  /// is brighter, which radiance would have to be told; of one side alone it is what is seen, also
+  /// of what is not reciprocal.
+  double weight(Vec3d u) const {
+    const Mode mode = bsdf_.transmits() ? Mode::Importance : Mode::Radiance;
+    const auto s = bsdf_.sample(wo_, u.x, u.y, u.z, mode, *choice_);
+    return s ? s->f[0] * std::abs(s->wi.z) / s->pdf[0] : 0;
+  }
+  Spectrum<double> value(Vec3d wi, Mode mode) const {
+    return bsdf_.evaluate(wo_, wi, mode, *choice_).f;
+  }
+
+ private:
+  Bsdf<double> bsdf_;
+  Vec3d wo_;
+  std::unique_ptr<Bsdf<double>::Choice> choice_ = std::make_unique<Bsdf<double>::Choice>();
+};
+
+/// The same of a phase function.
+class Volume {
+ public:
+  Volume(const Layout& layout, const double* numbers) : phase_(layout, numbers) {}
+
+  void see(Vec3d wo) { wo_ = wo; }
+  double weight(Vec3d u) const {
+    const auto s = phase_.sample(wo_, u.x, u.y, u.z);
+    return s ? s->f[0] / s->pdf[0] : 0;
+  }
+  Spectrum<double> value(Vec3d wi, Mode) const { return phase_.eval(wo_, wi); }
+
+ private:
+  Phase<double> phase_;
+  Vec3d wo_;
+};
 
 template <class Scattering>
-Mean albedo(const Scattering& scattering, Vec3d wo, int samples) {
+Mean albedo(Scattering& scattering, Vec3d wo, int samples) {
+  scattering.see(wo);
   double mean = 0, squares = 0;  // Welford's sums
   for (int i = 0; i < samples; ++i) {
-    const double weight = weight_of(scattering, wo, cube_point(i));
+    const double weight = scattering.weight(cube_point(i));
     const double step = weight - mean;
     mean += step / (i + 1);
     squares += step * (weight - mean);
@@ -73,24 +107,18 @@ Mean albedo(const Scattering& scattering, Vec3d wo, int samples) {
   return {mean, squares / samples};
 }
 
-Spectrum<double> value_of(const Bsdf<double>& bsdf, Vec3d a, Vec3d b, Mode mode) {
-  return bsdf.eval(a, b, mode);
-}
-
-Spectrum<double> value_of(const Phase<double>& phase, Vec3d a, Vec3d b, Mode) {
-  return phase.eval(a, b);
-}
-
 template <class Scattering>
-double reciprocity(const Scattering& scattering) {
+double reciprocity(Scattering scattering) {
   double worst = 0;
   for (int i = 1; i <= 2000; ++i) {
     const auto at = [i](int base) { return mirrored_digits(i, base); };
     const Vec3d a = square_to_sphere(at(2), at(3)), b = square_to_sphere(at(5), at(7));
     // From one side to the other f itself is not symmetric, as an index may lie between.
     const Mode back = same_side(a, b) ? Mode::Radiance : Mode::Importance;
-    const auto ab = value_of(scattering, a, b, Mode::Radiance),
-               ba = value_of(scattering, b, a, back);
+    scattering.see(a);
+    const auto ab = scattering.value(b, Mode::Radiance);
+    scattering.see(b);
+    const auto ba = scattering.value(a, back);
     for (int j = 0; j < kWavelengths; ++j) {
       const double larger = std::max(ab[j], ba[j]);
       if (larger > 0) worst = std::max(worst, std::abs(ab[j] - ba[j]) / larger);
@@ -106,7 +134,7 @@ FurnaceReport measure(const Layout& layout, const std::vector<double>& numbers, 
   std::vector<double> turned;
   for (int j = 0; j < kWavelengths; ++j) {
     const bool other = turn(layout, numbers, j, turned);
-    const Scattering scattering(layout, turned.data());
+    Scattering scattering(layout, turned.data());
     for (FurnaceRow& row : report.rows) {
       if (j > 0 && !other) {
         row.albedo[j] = row.albedo[0];
@@ -133,12 +161,12 @@ double FurnaceRow::lost() const {
 }
 
 FurnaceReport furnace(const Layout& layout, const std::vector<double>& numbers, int samples) {
-  if (layout.phase()) return measure<Phase<double>>(layout, numbers, samples, {FurnaceRow()});
+  if (layout.phase()) return measure<Volume>(layout, numbers, samples, {FurnaceRow()});
   std::vector<FurnaceRow> rows;
   for (double degrees : {0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 80.0, 85.0, 89.0, 89.9, 180.0, 150.0,
                          120.0, 100.0, 91.0})
     if (degrees < 90 || layout.transmits()) rows.push_back({degrees, {}, 0, 0});
-  return measure<Bsdf<double>>(layout, numbers, samples, std::move(rows));
+  return measure<Surface>(layout, numbers, samples, std::move(rows));
 }
 
 }  // namespace mms::materials
