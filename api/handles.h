@@ -17,6 +17,7 @@
 #include "api/mms.h"
 #include "base/result.h"
 #include "lang/link.h"
+#include "materials/bsdf.h"
 #include "materials/layout.h"
 #include "vm/interpreter.h"
 
@@ -89,6 +90,8 @@ struct MMsContext {
   mms::vm::InputBatch<float> in;
   mms::vm::Interpreter<float> machine;
   mms::api::Messages messages;
+  /// Of the last surface that was asked, once there is one: what is solved for is kept.
+  std::unique_ptr<mms::materials::Bsdf<float>::Choice> choice;
 };
 
 namespace mms::api {

@@ -45,12 +45,18 @@ int for_each_point(MMsContext* context, const Handle* handle, const MMsPoints* p
   });
 }
 
+/// Calls `use(bsdf, wo, choice, point)`: the material, light's direction, and what is along it.
 template <class Use>
 int for_each_bsdf(MMsContext* context, const MMsSurface* surface, const MMsPoints* points,
-                  Use use) {
+                  const float* wo, Use use) {
+  using Bsdf = materials::Bsdf<float>;
   return for_each_point(context, surface, points, &vm::Descriptor::shade, &vm::Entry::material,
                         [&](const float* params, std::size_t i) {
-                          use(materials::Bsdf<float>(surface->bsdf, params), i);
+                          if (!context->choice) context->choice = std::make_unique<Bsdf::Choice>();
+                          const Bsdf bsdf(surface->bsdf, params);
+                          const Vec3f along = load(wo, points->count, i);
+                          bsdf.choose(along, *context->choice);
+                          use(bsdf, along, *context->choice, i);
                         });
 }
 
@@ -78,34 +84,37 @@ static_assert(MMS_WAVELENGTHS == kWavelengths);
 int mmsEvalBsdf(MMsContext* context, const MMsSurface* surface, const MMsPoints* points,
                 const float* wo, const float* wi, float* f) {
   if (!wo || !wi || !f) return 0;
-  return for_each_bsdf(context, surface, points, [&](const auto& bsdf, std::size_t i) {
+  const auto eval = [&](const auto& bsdf, Vec3f along, const auto& choice, std::size_t i) {
     const std::size_t n = points->count;
-    store(bsdf.eval(load(wo, n, i), load(wi, n, i), kMode), f, n, i);
-  });
+    store(bsdf.evaluate(along, load(wi, n, i), kMode, choice).f, f, n, i);
+  };
+  return for_each_bsdf(context, surface, points, wo, eval);
 }
 
 int mmsPdfBsdf(MMsContext* context, const MMsSurface* surface, const MMsPoints* points,
                const float* wo, const float* wi, float* pdf) {
   if (!wo || !wi || !pdf) return 0;
-  return for_each_bsdf(context, surface, points, [&](const auto& bsdf, std::size_t i) {
+  const auto density = [&](const auto& bsdf, Vec3f along, const auto& choice, std::size_t i) {
     const std::size_t n = points->count;
-    store(bsdf.pdf(load(wo, n, i), load(wi, n, i), kMode), pdf, n, i);
-  });
+    store(bsdf.pdf(along, load(wi, n, i), kMode, choice), pdf, n, i);
+  };
+  return for_each_bsdf(context, surface, points, wo, density);
 }
 
 int mmsSampleBsdf(MMsContext* context, const MMsSurface* surface, const MMsPoints* points,
                   const float* wo, const float* u, float* wi, float* f, float* pdf,
                   unsigned char* flags) {
   if (!wo || !u || !wi || !f || !pdf || !flags) return 0;
-  return for_each_bsdf(context, surface, points, [&](const auto& bsdf, std::size_t i) {
+  const auto sample = [&](const auto& bsdf, Vec3f along, const auto& choice, std::size_t i) {
     const std::size_t n = points->count;
-    const auto s = bsdf.sample(load(wo, n, i), u[i], u[n + i], u[2 * n + i], kMode);
+    const auto s = bsdf.sample(along, u[i], u[n + i], u[2 * n + i], kMode, choice);
     store(s, n, i, wi, f, pdf);
     const int bits = !s ? 0
                         : MMS_SAMPLED | (s->specular ? MMS_SPECULAR : 0) |
                               (s->transmitted ? MMS_TRANSMITTED : 0);
     flags[i] = static_cast<unsigned char>(bits);
-  });
+  };
+  return for_each_bsdf(context, surface, points, wo, sample);
 }
 
 int mmsEvalPhase(MMsContext* context, const MMsVolume* volume, const MMsPoints* points,

@@ -222,3 +222,39 @@ TEST_CASE("a gradient that is derived needs the changes along the tangents, whic
   REQUIRE(mmsEvalSurface(linked.context, s, "gradient", &points, gradient));
   CHECK(gradient[0] == 2.0f);
 }
+
+TEST_CASE("what a context was asked before changes no value") {
+  const Linked linked(
+      "surface coated bsdf = coat(microfacet(1, 0.3), dielectric(1.5, 0.2 + 0.1 * $time)); end\n"
+      "surface filmed bsdf = film_mix(matte(0.5), microfacet(1, 0.3), 1.5, 1.38, 300nm * $time,\n"
+      "    $wavelength); end\n"
+      "surface rough bsdf = dielectric(1.3 + 0.2 * $time, 0.4); end\n");
+  REQUIRE_MESSAGE(linked.context, linked.log);
+  // Points in pairs of the same numbers, along other directions.
+  const float time[4] = {1, 1, 2, 2};
+  const float wo[12] = {0, 0.6f, 0.6f, 0.28f, 0, 0, 0, 0, 1, 0.8f, 0.8f, 0.96f};
+  const float wi[12] = {0.6f, 0, -0.28f, 0, 0, 0.6f, 0, 0.6f, 0.8f, 0.8f, 0.96f, -0.8f};
+  const float u[12] = {0.1f, 0.4f, 0.6f, 0.9f, 0.2f, 0.5f, 0.7f, 0.3f, 0.8f, 0.1f, 0.4f, 0.6f};
+  const MMsInput input{"time", time};
+  const MMsPoints points{4, &input, 1};
+  /// All that scatters: f, densities, and a sample's direction, f and density.
+  const auto asked = [&](MMsContext* context, const char* name) {
+    const MMsSurface* s = mmsGetSurface(linked.program, name);
+    std::vector<float> all(4 * (8 + 8 + 3 + 8 + 8));
+    float *f = all.data(), *pdf = f + 32, *drawn = pdf + 32, *f_drawn = drawn + 12;
+    unsigned char flags[4];
+    REQUIRE(mmsEvalBsdf(context, s, &points, wo, wi, f));
+    REQUIRE(mmsPdfBsdf(context, s, &points, wo, wi, pdf));
+    REQUIRE(mmsSampleBsdf(context, s, &points, wo, u, drawn, f_drawn, f_drawn + 32, flags));
+    return all;
+  };
+  for (const char* name : {"coated", "filmed", "rough", "coated", "rough", "filmed"}) {
+    CAPTURE(name);
+    MMsContext* fresh = mmsMkContext(linked.program);
+    const auto kept = asked(linked.context, name), alone = asked(fresh, name);
+    mmsDeleteContext(fresh);
+    CHECK(kept == alone);
+    CHECK(kept[0] > 0);
+    CHECK(kept[32] > 0);
+  }
+}
