@@ -23,12 +23,13 @@ constexpr double kLeastCosine = 0.02;
 double alpha_of(const materials::Bsdf<float>& bsdf) {
   constexpr int kSide = 16;
   const Vec3f wo{0.6f, 0, 0.8f};
+  const auto choice = bsdf.choose(wo);
   std::vector<double> squares;
   for (int i = 0; i < kSide * kSide; ++i) {
     const auto middle = [](int k) { return (float(k) + 0.5f) / kSide; };
     const auto part = [](float x) { return x - std::floor(x); };
     const auto s = bsdf.sample(wo, part(float(i) * std::numbers::phi_v<float>), middle(i % kSide),
-                               middle(i / kSide), materials::Mode::Radiance);
+                               middle(i / kSide), materials::Mode::Radiance, choice);
     if (!s) continue;
     const Vec3d h = Vec3d(s->wi + wo);
     squares.push_back((h.x * h.x + h.y * h.y) / (h.z * h.z));

@@ -176,8 +176,10 @@ class Gaze {
     using materials::Mode;
     const Mode mode = c.material.transmits() ? Mode::Importance : Mode::Radiance;
     const Vec3f wo(frame.to_local(v.point.view));
+    const materials::Bsdf<float> bsdf(c.material, params_.data());
+    bsdf.choose(wo, choice_);
     scatter(v, [&](float u, float a, float b) {
-      auto s = materials::Bsdf<float>(c.material, params_.data()).sample(wo, u, a, b, mode);
+      auto s = bsdf.sample(wo, u, a, b, mode, choice_);
       if (s) s->f *= std::abs(s->wi.z);
       return s;
     });
@@ -240,6 +242,7 @@ class Gaze {
   std::vector<PathView> views_;
   std::vector<const ScriptPoint*> lanes_;
   std::vector<float> params_, scratch_;
+  materials::Bsdf<float>::Choice choice_;  ///< of the surface that is looked at
   std::vector<int> counts_;
 };
 
