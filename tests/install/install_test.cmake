@@ -59,6 +59,13 @@ foreach(foreign embree OpenImageIO assimp)
     message(FATAL_ERROR "libmms.so needs ${foreign}")
   endif()
 endforeach()
+# The tables are there once for all who load them.
+foreach(program ${shared} ${prefix}/bin/mms)
+  run(readelf -d ${program})
+  if(NOT out MATCHES "NEEDED[^\n]*libmms_tables\\.so\\.")
+    message(FATAL_ERROR "${program} does not load libmms_tables.so:\n${out}")
+  endif()
+endforeach()
 if(EXISTS ${prefix}/bin/mms-render)  # it starts quickly
   run(readelf -d ${prefix}/bin/mms-render)
   if(out MATCHES "NEEDED[^\n]*OpenImageIO")
