@@ -220,4 +220,7 @@ class Bsdf {
   const R* params_;
 };
 
+extern template class Bsdf<float>;
+extern template class Bsdf<double>;
+
 }  // namespace mms::materials
