@@ -129,7 +129,8 @@ TEST_CASE("a picture of the sky: directions follow their density, whatever it is
     const stats::ChiSquareResult r = stats::chi_square(test);
     INFO(r.report());
     // The sky is not all black anywhere that blending reaches: nothing but it is drawn.
-    CHECK(std::abs(r.mass - 1) < 1e-3);
+    // Under sanitizers cells are large, and it is known no better than their quadrature says.
+    CHECK(std::abs(r.mass - 1) < (kSanitized ? r.error : 1e-3));
     CHECK(r.passed(1e-4));
   }
 }
