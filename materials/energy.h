@@ -50,8 +50,8 @@ inline constexpr float kGgxLeastMean = 0.1f, kBeckmannLeastMean = 0.003f;
 /// `kink` of both.
 inline constexpr float kGgxKink = 0.6f, kBeckmannKink = 0;
 /// `bent` of both.
-inline constexpr BentGrid kGgxBent[] = {{16, 14, 26, 18}, {16, 28, 36, 20}};
-inline constexpr BentGrid kBeckmannBent[] = {{17, 14, 26, 18}, {24, 28, 36, 20}};
+inline constexpr BentGrid kGgxBent[] = {{18, 14, 34, 18}, {20, 40, 46, 24}};
+inline constexpr BentGrid kBeckmannBent[] = {{22, 18, 38, 20}, {30, 44, 54, 24}};
 
 /// How directions and widths are laid out over [0, 1] along the axes of the tables.
 namespace axes {
@@ -69,7 +69,7 @@ inline constexpr int kInterfaceMean = 65;
 inline constexpr int kBentMeanAlpha = 25, kBentMeanAspect = 10, kBentMeanIndex = 32;
 /// Roots of the least width; below, all is as there, but for its scale. The ends of the axis of
 /// indices: 1.0002 and 4, or their inverses.
-inline constexpr double kLeastBentRoot = 0.07, kLeastBentFourthRoot = 0.15;
+inline constexpr double kLeastBentRoot = 0.03, kLeastBentFourthRoot = 0.15;
 inline constexpr double kLeastBentIndex = 0.1, kMostBentIndex = 0.8801117;
 inline constexpr double kBentIndexPower[] = {0.75, 1.2};
 /// Of a coat and of lobes below one. As many indices keep what the spline rings by next to
@@ -370,7 +370,7 @@ struct Shape {
 /// `degree`: what facets do changes fastest with the angle, next to the rim.
 template <class R>
 struct ShapeBasis {
-  static constexpr int kMostDegree = 20;
+  static constexpr int kMostDegree = 24;
   static constexpr int terms(int degree) {
     int count = -1;  // all but 1
     for (int k = 0; 3 * k <= degree; ++k) count += degree - 3 * k + 1;

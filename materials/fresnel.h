@@ -19,14 +19,19 @@ struct FresnelSplit {
 };
 
 /// g^2 = eta^2 - sin^2 at the cosine of incidence `c`: negative or 0 in total reflection. Of its
-/// two forms, c^2 + (eta^2 - 1) and eta^2 - (1 - c)(1 + c), the one that subtracts less.
+/// two forms, c^2 + (eta^2 - 1) and eta^2 - (1 - c)(1 + c), the one that subtracts less. `e` is
+/// eta^2 - 1, of which a rounded eta next to 1 says little.
 ///
 /// This and what is always inlined below only select: loops over it are computed side by side.
 template <class R>
-[[gnu::always_inline]] inline R refraction_g2(R c, R eta) {
+[[gnu::always_inline]] inline R refraction_g2(R c, R eta, R e) {
   const bool steep = c > R(0.7);
   const R root = steep ? eta : c;
-  return fused(root, root, steep ? -(1 - c) * (1 + c) : (eta - 1) * (eta + 1));
+  return fused(root, root, steep ? -(1 - c) * (1 + c) : e);
+}
+template <class R>
+[[gnu::always_inline]] inline R refraction_g2(R c, R eta) {
+  return refraction_g2(c, eta, (eta - 1) * (eta + 1));
 }
 
 /// Dielectric of relative index `eta` (far side over near side, > 0) at the cosine of incidence
@@ -34,9 +39,9 @@ template <class R>
 /// r_p = e ((eta^2 + 1) c^2 - 1) / (eta^2 c + g)^2; total reflection where g^2 <= 0. At eta = 1
 /// nothing is reflected, not even at c = 0.
 template <class R>
-[[gnu::always_inline]] inline FresnelSplit<R> fresnel_split(R c, R eta) {
-  const R e = (eta - 1) * (eta + 1), eta2 = eta * eta;
-  const R g2 = refraction_g2(c, eta), g = std::sqrt(g2 > 0 ? g2 : R(0));
+[[gnu::always_inline]] inline FresnelSplit<R> fresnel_split(R c, R eta, R e) {
+  const R eta2 = eta * eta;
+  const R g2 = refraction_g2(c, eta, e), g = std::sqrt(g2 > 0 ? g2 : R(0));
   const R ds = c + g, dp = fused(eta2, c, g);
   const R is = 1 / (ds * ds), ip = 1 / (dp * dp);
   const bool steep = c > R(0.7);
@@ -46,6 +51,10 @@ template <class R>
   const R reflected = g2 > 0 ? up < 1 ? up : R(1) : R(1);
   const R transmitted = g2 > 0 ? down < 1 ? down : R(1) : R(0);
   return {e == 0 ? R(0) : reflected, e == 0 ? R(1) : transmitted};
+}
+template <class R>
+[[gnu::always_inline]] inline FresnelSplit<R> fresnel_split(R c, R eta) {
+  return fresnel_split(c, eta, (eta - 1) * (eta + 1));
 }
 
 /// Reflectance of a dielectric, as above.

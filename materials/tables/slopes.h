@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "base/exponential.h"
@@ -17,6 +18,32 @@
 
 namespace mms::materials::tables {
 
+/// e^x, x <= 0, and the natural logarithm of a positive number: those of base/exponential.h in
+/// float. Relative errors of the polynomials 1e-8 and 3e-9.
+MMS_INLINE float exp_down(float x) {
+  constexpr float kRound = 0x1.8p23f, kHigh = 0x1.62e4p-1f, kLow = 0x1.7f7d1cp-20f;
+  const float known = x > -87 ? x : -87.0f, t = core::fused(known, 0x1.715476p+0f, kRound);
+  const float k = t - kRound, r = core::fused(-k, kLow, core::fused(-k, kHigh, known));
+  const float small = core::fused(
+      r * r,
+      core::polynomial(r, 0x1p-1f, 0x1.5554dcp-3f, 0x1.55551ap-5f, 0x1.120b6ep-7f, 0x1.6d110ap-10f),
+      r);
+  const float scale = core::bits<float>((core::bits<std::uint32_t>(t) << 23) + 0x3f800000u);
+  return core::fused(scale, small, scale);
+}
+MMS_INLINE float log_in_range(float x) {
+  constexpr std::uint32_t root_half = 0x3f3504f3u;
+  const std::uint32_t b = core::bits<std::uint32_t>(x) - root_half;
+  const float k = float(std::int32_t(b) >> 23);
+  const float m = core::bits<float>((b & 0x007fffffu) + root_half);
+  const float s = (m - 1) / (m + 1), t = s * s;
+  const float log_m = core::fused(
+      s * t, core::polynomial(t, 0x1.55555cp-1f, 0x1.997c2ep-2f, 0x1.2ee656p-2f), 2 * s);
+  return core::fused(k, 0x1.62e43p-1f, log_m);
+}
+MMS_INLINE double exp_down(double x) { return core::exp_core(x); }
+MMS_INLINE double log_in_range(double x) { return core::log_in_range(x); }
+
 /// How slopes t of a distribution of width 1 are laid out over m in (-1, 1), so that their density
 /// times the slope's derivative is nearly flat; `density` is of t^2, `spread` how much wider the
 /// slopes across are at a slope t along. `kPoints` keep what stretched facets lose within 2e-4, see
@@ -25,40 +52,62 @@ struct GgxSlopes {
   static constexpr int kPoints = 14;
   static double place(double t) { return std::atan(t) * (2 / kPi<double>); }
   /// tan(m pi / 2). Polynomial, of its product with 1 - m^2: relative error 3e-11.
-  MMS_INLINE static double slope(double m) {
-    const double a = std::abs(m), b = a > 0.5 ? 1 - a : a, b2 = b * b;
-    const double p =
-        b * core::polynomial(b2, 0x1.921fb544176bfp+0, -0x1.1d8f9b00115efp-2, -0x1.1403090b67d0ep-6,
-                             -0x1.ae770d29fddccp-10, -0x1.8b53360ac9a8fp-13);
-    return std::copysign((a > 0.5 ? 1 - b2 : p) / (a > 0.5 ? p : 1 - b2), m);
+  template <class R>
+  MMS_INLINE static R slope(R m) {
+    const R a = std::abs(m), b = a > R(0.5) ? 1 - a : a, b2 = b * b;
+    const R p = b * core::polynomial(b2, R(0x1.921fb544176bfp+0), R(-0x1.1d8f9b00115efp-2),
+                                     R(-0x1.1403090b67d0ep-6), R(-0x1.ae770d29fddccp-10),
+                                     R(-0x1.8b53360ac9a8fp-13));
+    return std::copysign((a > R(0.5) ? 1 - b2 : p) / (a > R(0.5) ? p : 1 - b2), m);
   }
-  MMS_INLINE static double derivative(double, double t) { return kPi<double> / 2 * (1 + t * t); }
-  MMS_INLINE static double density(double t2) { return 1 / ((1 + t2) * (1 + t2)); }
-  MMS_INLINE static double spread(double t) { return std::sqrt(1 + t * t); }
-  MMS_INLINE static double shadow(const Ggx<double>& facets, Vec3d w) { return facets.shadow(w); }
+  template <class R>
+  MMS_INLINE static R derivative(R, R t) {
+    return kPi<R> / 2 * (1 + t * t);
+  }
+  MMS_INLINE static float density(float t2) { return 1 / ((1 + t2) * (1 + t2)); }
+  template <class R>
+  MMS_INLINE static R spread(R t) {
+    return std::sqrt(1 + t * t);
+  }
+  MMS_INLINE static float shadow(const Ggx<float>& facets, Vec3<float> w) {
+    return facets.shadow(w);
+  }
 };
 struct BeckmannSlopes {
   static constexpr int kPoints = 16;
   static double place(double t) { return std::tanh(t); }
-  MMS_INLINE static double slope(double m) { return core::log_in_range((1 + m) / (1 - m)) / 2; }
-  MMS_INLINE static double derivative(double m, double) { return 1 / ((1 - m) * (1 + m)); }
-  MMS_INLINE static double density(double t2) { return core::exp_core(-t2); }
-  MMS_INLINE static double spread(double) { return 1; }
+  template <class R>
+  MMS_INLINE static R slope(R m) {
+    return log_in_range((1 + m) / (1 - m)) / 2;
+  }
+  template <class R>
+  MMS_INLINE static R derivative(R m, R) {
+    return 1 / ((1 - m) * (1 + m));
+  }
+  MMS_INLINE static float density(float t2) { return exp_down(-t2); }
+  template <class R>
+  MMS_INLINE static R spread(R) {
+    return 1;
+  }
   /// Beckmann::shadow. Polynomial, of exp(a^2) s(a) / v^2 over v: relative error 7e-9.
-  MMS_INLINE static double shadow(const Beckmann<double>& facets, Vec3d w) {
-    const double t = facets.tangent(w), z = std::abs(w.z), far = z > 6 * t;
-    const double a = far ? 6.0 : z / t, v = 1 / (1 + 0.4 * a);
-    const double s =
-        core::exp_core(-a * a) * (v * v) *
-        core::polynomial(v, 0x1.723a129e424c7p-5, 0x1.6c31ebbf89706p-4, 0x1.1b1747f2eedb7p-3,
-                         0x1.de7c323e57093p-5, 0x1.a340836f5465cp-2, -0x1.37f7d463250b3p-1,
-                         0x1.1aa209222a762p+0, -0x1.102f56c506a31p+0, 0x1.e5d2c30e64c19p-2,
-                         -0x1.4f8993380809dp-4);
-    return far ? 0.0 : t * s / 2;
+  template <class R>
+  MMS_INLINE static R shadow(const Beckmann<R>& facets, Vec3<R> w) {
+    const R t = facets.tangent(w), z = std::abs(w.z);
+    const bool far = z > 6 * t;
+    const R a = far ? R(6) : z / t, v = 1 / (1 + R(0.4) * a);
+    const R s = exp_down(-a * a) * (v * v) *
+                core::polynomial(v, R(0x1.723a129e424c7p-5), R(0x1.6c31ebbf89706p-4),
+                                 R(0x1.1b1747f2eedb7p-3), R(0x1.de7c323e57093p-5),
+                                 R(0x1.a340836f5465cp-2), R(-0x1.37f7d463250b3p-1),
+                                 R(0x1.1aa209222a762p+0), R(-0x1.102f56c506a31p+0),
+                                 R(0x1.e5d2c30e64c19p-2), R(-0x1.4f8993380809dp-4));
+    return far ? R(0) : t * s / 2;
   }
 };
 inline GgxSlopes slopes_of(const Ggx<double>&) { return {}; }
 inline BeckmannSlopes slopes_of(const Beckmann<double>&) { return {}; }
+template <template <class> class Distribution>
+using SlopesOf = decltype(slopes_of(std::declval<Distribution<double>>()));
 
 /// Gauss's rules of 1 to `kMost` points over [0, 1], for numbers that are known late, with points
 /// that crowd at both ends.
@@ -141,11 +190,11 @@ struct Way {
   double share = 0, facet = 0, taken = 1, cosine = 0;
 };
 
-/// What facets of a row send both ways, side by side, so that it is computed so: by their `place`
-/// along the row; each counts with `weight`.
+/// What facets of a row send both ways, side by side, so that it is computed so, and in float: by
+/// their `place` along the row; each counts with `weight`.
 struct Bounces {
-  static constexpr int kTogether = 4, kMost = (Cuts::kMost + 1) * Rules::kMost;
-  using Values = std::array<double, kMost>;
+  static constexpr int kTogether = 8, kMost = (Cuts::kMost + 1) * Rules::kMost;
+  using Values = std::array<float, kMost>;
   struct Ways {
     Values share, facet, taken, cosine;
     Way at(int i) const { return {share[i], facet[i], taken[i], cosine[i]}; }
@@ -155,7 +204,10 @@ struct Bounces {
   Ways up, down;
   int size = 0;
 
-  void add(double at, double w) { place[size] = at, weight[size++] = w; }
+  void add(double at, double w) {
+    constexpr float kEnd = 1 - 0x1p-24f;
+    place[size] = std::clamp(float(at), -kEnd, kEnd), weight[size++] = float(w);
+  }
   /// To a multiple of kTogether, with what does not count.
   void fill_up() {
     while (size % kTogether) add(0, 0);
@@ -190,13 +242,71 @@ void visit_roots(double a, double b, double c, const Visit& visit) {
   visit(-c / q);
 }
 
+/// What facets do to light along a direction that sees them, in rows of one x of normals (x, y, 1).
+/// In float, which moves losses by up to 2e-7: where rows end and their sums are in double.
+template <template <class> class Distribution>
+struct RowsOfFacets {
+  using Slopes = SlopesOf<Distribution>;
+  /// x, that as a slope of width 1, what the normals have along the direction, and the middle and
+  /// the width of y.
+  struct Row {
+    float x, slope, facing, middle, width;
+  };
+
+  Distribution<float> facets;
+  float eta, inverse_eta, e;   ///< relative index; eta^2 - 1
+  float z, s, cx, cy, shadow;  ///< of the direction
+
+  /// Copies, by which the compiler knows that nothing of them changes.
+  [[gnu::noinline]] static void bounce(const RowsOfFacets seen, const Row row, Bounces& to) {
+    const float spread = Slopes::spread(row.slope);
+    const int size = to.size / Bounces::kTogether * Bounces::kTogether;
+    for (int i = 0; i < size; ++i) {
+      const float m = to.place[i], u = Slopes::slope(m), v = u * spread;
+      to.weight[i] *= Slopes::derivative(m, u) * Slopes::density(row.slope * row.slope + v * v);
+      seen.bounce(row.x, row.middle + row.width * v, row.facing, i, to);
+    }
+  }
+
+ private:
+  MMS_INLINE void bounce(float x, float y, float facing, int i, Bounces& to) const {
+    const float length2 = 1 + x * x + y * y, inverse = 1 / std::sqrt(length2);
+    const float cosine = facing * inverse, c = cosine < 1 ? cosine : 1.0f;
+    const FresnelSplit<float> f = fresnel_split(c, eta, e);
+    const float twice = 2 * cosine * inverse, rise = twice - z;
+    const bool rises = rise > 0;
+    const float out = rises ? rise : 0.0f, taken = hidden(twice * x - s, twice * y, out);
+    to.up.share[i] = f.reflected;
+    to.up.facet[i] = c;
+    to.up.taken[i] = rises ? taken : 1.0f;
+    to.up.cosine[i] = out;
+    const float g2 = refraction_g2(c, eta, e), g = std::sqrt(g2 > 0 ? g2 : 0.0f);
+    const float bend = -e / (c + g) * inverse, fall = (z - bend) * inverse_eta;
+    const bool falls = fall > 0;  // in total reflection, of which the share is 0, no matter
+    const float through = falls ? fall : 0.0f;
+    const float kept = hidden((bend * x - s) * inverse_eta, bend * y * inverse_eta, through);
+    to.down.share[i] = f.transmitted;
+    to.down.facet[i] = g * inverse_eta;
+    to.down.taken[i] = falls ? kept : 1.0f;
+    to.down.cosine[i] = through;
+  }
+
+  /// G2 / G1 away from 1, of light that leaves along (x, y) at the |cosine| `c`.
+  MMS_INLINE float hidden(float x, float y, float c) const {
+    const float g = z * Slopes::shadow(facets, {x * cx - y * cy, x * cy + y * cx, c});
+    return g / (z * c + shadow * c + g);
+  }
+};
+
 /// The facets that `wo` sees, each an interface of relative index `eta`. A facet's normal is (x, y,
 /// 1), not of unit length, with x towards `wo` and y across, in rows of one x.
-template <class Facets>
+template <template <class> class Distribution>
 class SeenFacets {
  public:
+  using Facets = Distribution<double>;
+
   SeenFacets(const Facets& facets, double eta, Vec3d wo)
-      : facets_(facets), eta_(eta), inverse_eta_(1 / eta), z_(wo.z), s_(std::hypot(wo.x, wo.y)) {
+      : facets_(facets), eta_(eta), z_(wo.z), s_(std::hypot(wo.x, wo.y)) {
     if (s_ > 0) cx_ = wo.x / s_, cy_ = wo.y / s_;
     const double ax = facets.ax, ay = facets.ay;
     along_ = std::hypot(ax * cx_, ay * cy_);
@@ -205,6 +315,10 @@ class SeenFacets {
     round_ = ax == ay;
     e_ = (1 - eta) * (1 + eta);
     shadow_ = facets.shadow(wo);
+    rows_.facets = {{float(ax), float(ay)}};
+    rows_.eta = float(eta), rows_.inverse_eta = float(1 / eta), rows_.e = float(-e_);
+    rows_.z = float(z_), rows_.s = float(s_), rows_.shadow = float(shadow_);
+    rows_.cx = float(cx_), rows_.cy = float(cy_);
   }
 
   /// Mean of `value(up, down)`, a number or a sum of some. `points`: see Cuts.
@@ -219,18 +333,22 @@ class SeenFacets {
       cuts_across(x).visit(points / 2,  // rows are smoother than their sum
                            [&](double place, double w) { row.add(place, w); });
       row.fill_up();
-      bounce(*this, x, row);
+      Rows::bounce(rows_, {float(x), float(t), float(facing), float(shear_ * x), float(across_)},
+                   row);
       const double scale = weight * Slopes::derivative(m, t) * facing * across_ * Slopes::spread(t);
+      decltype(sum) of_row{};
       for (int i = 0; i < row.size; ++i)
-        if (row.weight[i] > 1e-30)
-          sum += value(row.up.at(i), row.down.at(i)) * (scale * row.weight[i]);
+        if (row.weight[i] > 1e-30f)
+          of_row += value(row.up.at(i), row.down.at(i)) * double(row.weight[i]);
+      sum += of_row * scale;
     });
     return sum *
            ((round_ ? 2 : 1) * along_ / (kPi<double> * facets_.ax * facets_.ay * (z_ + shadow_)));
   }
 
  private:
-  using Slopes = decltype(slopes_of(std::declval<Facets>()));
+  using Slopes = SlopesOf<Distribution>;
+  using Rows = RowsOfFacets<Distribution>;
 
   /// Where parts of the rows' sum end: where reflection or refraction leaves the surface grazing,
   /// or is just total, all of which are conics in (x, y), and where those meet the line that the
@@ -293,62 +411,24 @@ class SeenFacets {
     return cuts;
   }
 
-  /// The facets of the row at `x`. A copy of what is seen, by which the compiler knows that nothing
-  /// of it changes.
-  [[gnu::noinline]] static void bounce(const SeenFacets seen, const double x, Bounces& row) {
-    const double t = x / seen.along_, spread = Slopes::spread(t);
-    const double middle = seen.shear_ * x, facing = seen.z_ + seen.s_ * x;
-    const int size = row.size / Bounces::kTogether * Bounces::kTogether;
-    for (int i = 0; i < size; ++i) {
-      const double m = row.place[i], u = Slopes::slope(m), v = u * spread;
-      row.weight[i] *= Slopes::derivative(m, u) * Slopes::density(t * t + v * v);
-      seen.bounce(x, middle + seen.across_ * v, facing, i, row);
-    }
-  }
-  MMS_INLINE void bounce(double x, double y, double facing, int i, Bounces& row) const {
-    const double length2 = 1 + x * x + y * y, inverse = 1 / std::sqrt(length2);
-    const double cosine = facing * inverse, c = cosine < 1 ? cosine : 1.0;
-    const FresnelSplit<double> f = fresnel_split(c, eta_);
-    const double twice = 2 * cosine * inverse, rise = twice - z_;
-    const bool rises = rise > 0;
-    const double out = rises ? rise : 0.0, taken = hidden(twice * x - s_, twice * y, out);
-    row.up.share[i] = f.reflected;
-    row.up.facet[i] = c;
-    row.up.taken[i] = rises ? taken : 1.0;
-    row.up.cosine[i] = out;
-    const double g2 = refraction_g2(c, eta_), g = std::sqrt(g2 > 0 ? g2 : 0.0);
-    const double bend = e_ / (c + g) * inverse, fall = (z_ - bend) * inverse_eta_;
-    const bool falls = fall > 0;  // in total reflection, of which the share is 0, no matter
-    const double through = falls ? fall : 0.0;
-    const double kept = hidden((bend * x - s_) * inverse_eta_, bend * y * inverse_eta_, through);
-    row.down.share[i] = f.transmitted;
-    row.down.facet[i] = g * inverse_eta_;
-    row.down.taken[i] = falls ? kept : 1.0;
-    row.down.cosine[i] = through;
-  }
-
-  /// G2 / G1 away from 1, of light that leaves along (x, y) at the |cosine| `c`.
-  MMS_INLINE double hidden(double x, double y, double c) const {
-    const double g = z_ * Slopes::shadow(facets_, {x * cx_ - y * cy_, x * cy_ + y * cx_, c});
-    return g / (z_ * c + shadow_ * c + g);
-  }
-
   bool falls() const { return eta_ < 1; }
 
   Facets facets_;
-  double eta_, inverse_eta_;
+  double eta_;
   double z_, s_, cx_ = 1, cy_ = 0;  ///< of `wo`
   double along_, across_;           ///< widths: across at one slope along, about a middle of
   double shear_;                    ///< times that slope
   bool round_;
   double e_;       ///< where the index falls, cos^2 of the critical angle
   double shadow_;  ///< of `wo`
+  Rows rows_;
 };
 
 /// Mean over the facets that `wo` sees of `value(up, down)`, a number or a sum of some.
-template <class Facets, class Value>
-auto interface_mean(const Facets& facets, double eta, Vec3d wo, int points, const Value& value) {
-  return SeenFacets<Facets>(facets, eta, wo).mean(points, value);
+template <template <class> class Distribution, class Value>
+auto interface_mean(const Distribution<double>& facets, double eta, Vec3d wo, int points,
+                    const Value& value) {
+  return SeenFacets<Distribution>(facets, eta, wo).mean(points, value);
 }
 
 /// What one bounce loses: what other facets take.

@@ -83,6 +83,7 @@ TEST_CASE("what one bounce off an interface of facets loses") {
 TEST_CASE("slopes and masking without libm are those of libm") {
   const auto relative = [](double value, double exact) { return std::abs(value / exact - 1); };
   double ggx = 0, beckmann = 0, shadow = 0;
+  float ggx_float = 0, beckmann_float = 0, shadow_float = 0;  // from those of double
   for (int k = 1; k < 4000; ++k)
     for (const double m : {k / 4000.0, 1 - std::pow(10, -k / 400.0)}) {
       // Next to 1, tan is of the angle that is left: m pi / 2 would round it away.
@@ -90,21 +91,38 @@ TEST_CASE("slopes and masking without libm are those of libm") {
       ggx = std::max(ggx, relative(tables::GgxSlopes::slope(m), slope));
       CHECK(tables::GgxSlopes::slope(-m) == -tables::GgxSlopes::slope(m));
       beckmann = std::max(beckmann, std::abs(tables::BeckmannSlopes::slope(m) - std::atanh(m)));
+      const float f = float(m);
+      if (f == 1) continue;
+      ggx_float = std::max(
+          ggx_float,
+          std::abs(tables::GgxSlopes::slope(f) / float(tables::GgxSlopes::slope(double(f))) - 1));
+      beckmann_float =
+          std::max(beckmann_float, std::abs(tables::BeckmannSlopes::slope(f) -
+                                            float(tables::BeckmannSlopes::slope(double(f)))));
     }
   const Beckmann<double> facets{{0.5, 0.05}};
+  const Beckmann<float> facets_float{{0.5f, 0.05f}};
   for (int k = 1; k < 4000; ++k) {
-    const double a = 6.0 * k / 4000;
+    const double a = float(6.0 * k / 4000);
     const Vec3d w{2, 0, a};  // of any length; stretched, its tangent is 1
     // In long double: what is left of both parts of a double is a few digits.
     const long double b = a,
                       left = std::exp(-b * b) / std::sqrt(kPi<long double>) - b * std::erfc(b);
     shadow =
         std::max(shadow, relative(tables::BeckmannSlopes::shadow(facets, w), double(left / 2)));
+    shadow_float = std::max(
+        shadow_float, float(relative(tables::BeckmannSlopes::shadow(facets_float, Vec3<float>(w)),
+                                     double(left / 2))));
   }
   CHECK(ggx < 5e-11);
   CHECK(beckmann < 1e-14);
   CHECK(shadow < 2e-8);
-  MESSAGE("worst ", ggx, " ", beckmann, " ", shadow);
+  // Of float, 2^-24 is half a step; an exponential is off by those of its argument, up to 36.
+  CHECK(ggx_float < 8 * 0x1p-24f);
+  CHECK(beckmann_float < 2 * 9 * 0x1p-24f);  // up to 9
+  CHECK(shadow_float < 2 * 36 * 0x1p-24f);
+  MESSAGE("worst ", ggx, " ", beckmann, " ", shadow, "; of float ", ggx_float, " ", beckmann_float,
+          " ", shadow_float);
 }
 
 TEST_CASE("tables of stretched facets hold that where their kink crosses the critical angle") {
