@@ -83,7 +83,8 @@ TEST_CASE("what one bounce off an interface of facets loses") {
 TEST_CASE("slopes and masking without libm are those of libm") {
   const auto relative = [](double value, double exact) { return std::abs(value / exact - 1); };
   double ggx = 0, beckmann = 0, shadow = 0;
-  float ggx_float = 0, beckmann_float = 0, shadow_float = 0;  // from those of double
+  float ggx_float = 0, beckmann_float = 0;  // of slopes, from those of double
+  double shadow_float = 0;
   for (int k = 1; k < 4000; ++k)
     for (const double m : {k / 4000.0, 1 - std::pow(10, -k / 400.0)}) {
       // Next to 1, tan is of the angle that is left: m pi / 2 would round it away.
@@ -103,16 +104,16 @@ TEST_CASE("slopes and masking without libm are those of libm") {
   const Beckmann<double> facets{{0.5, 0.05}};
   const Beckmann<float> facets_float{{0.5f, 0.05f}};
   for (int k = 1; k < 4000; ++k) {
-    const double a = float(6.0 * k / 4000);
-    const Vec3d w{2, 0, a};  // of any length; stretched, its tangent is 1
+    const double a = float(6.0 * k / 4000);  // the same of both types
+    const Vec3d w{2, 0, a};                  // of any length; stretched, its tangent is 1
     // In long double: what is left of both parts of a double is a few digits.
     const long double b = a,
                       left = std::exp(-b * b) / std::sqrt(kPi<long double>) - b * std::erfc(b);
     shadow =
         std::max(shadow, relative(tables::BeckmannSlopes::shadow(facets, w), double(left / 2)));
     shadow_float = std::max(
-        shadow_float, float(relative(tables::BeckmannSlopes::shadow(facets_float, Vec3<float>(w)),
-                                     double(left / 2))));
+        shadow_float,
+        relative(tables::BeckmannSlopes::shadow(facets_float, Vec3<float>(w)), double(left / 2)));
   }
   CHECK(ggx < 5e-11);
   CHECK(beckmann < 1e-14);
