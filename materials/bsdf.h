@@ -151,8 +151,9 @@ class Bsdf {
     std::bitset<kMaxNodes> solved;  ///< for which nodes `under` is asked
 
     // Kept while what they are of is the same, of whatever material.
-    SolvedPerNode<UnderCoats<R>> under;   ///< of lobes that have several coats above or are of one
-    SolvedPerNode<MeanThrough<R>> means;  ///< of Lambert lobes that have coats above
+    SolvedPerNode<UnderCoats<R>> under;  ///< of lobes that have several coats above or are of one
+    std::unique_ptr<StretchedSolutions<R>> stretched;  ///< of these, once there is one
+    SolvedPerNode<MeanThrough<R>> means;               ///< of Lambert lobes that have coats above
     SolvedPerNode<SolvedModel<R>> models;
 
     const UnderCoats<R>* solution(int node) const { return solved[node] ? &under[node] : nullptr; }

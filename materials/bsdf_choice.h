@@ -90,7 +90,10 @@ void Bsdf<R>::know_material(Choice& choice) const {
     const NodeAbove& above = choice.coats.above.of[i];
     const auto solve = [&](const CoatedLobe<R>& lobe) {
       if (!above.any() || !is_solved_for(choice.coats, above)) return;
-      choice.under.solve(i, lobe, coats_above(choice.coats, above, lobe.broad(), lobe.stretched()));
+      if (lobe.stretched() && !choice.stretched)
+        choice.stretched = std::make_unique<StretchedSolutions<R>>();
+      choice.under.solve(i, lobe, coats_above(choice.coats, above, lobe.broad()), choice.stretched,
+                         i);
       choice.solved.set(i);
     };
     with_model(i, 0, [&](const auto& model) {

@@ -35,20 +35,31 @@ inline const std::array<double, N>& chebyshev_points() {
   return points;
 }
 
+/// What values at the points are multiplied with for that of their polynomial at `x`.
+template <std::size_t N, class R>
+inline std::array<R, N> chebyshev_weights(R x) {
+  static const auto at_points = [] {  // [point][k]
+    std::array<std::array<R, N>, N> terms;
+    for (std::size_t i = 0; i < N; ++i) terms[i] = chebyshev_terms<N>(R(chebyshev_points<N>()[i]));
+    return terms;
+  }();
+  const auto there = chebyshev_terms<N>(x);
+  std::array<R, N> weights;
+  for (std::size_t i = 0; i < N; ++i) {
+    weights[i] = -1;
+    for (std::size_t k = 0; k < N; ++k) weights[i] += 2 * there[k] * at_points[i][k];
+    weights[i] /= R(N);
+  }
+  return weights;
+}
+
 /// [to][from]: what values at `From` points are multiplied with for those of their polynomial at
 /// `To` points.
 template <std::size_t To, std::size_t From>
 inline const std::array<std::array<double, From>, To>& chebyshev_transfer() {
   static const auto matrix = [] {
     std::array<std::array<double, From>, To> a;
-    for (std::size_t m = 0; m < To; ++m)
-      for (std::size_t i = 0; i < From; ++i) {
-        const auto there = chebyshev_terms<From>(chebyshev_points<To>()[m]),
-                   here = chebyshev_terms<From>(chebyshev_points<From>()[i]);
-        a[m][i] = -1;
-        for (std::size_t k = 0; k < From; ++k) a[m][i] += 2 * there[k] * here[k];
-        a[m][i] /= From;
-      }
+    for (std::size_t m = 0; m < To; ++m) a[m] = chebyshev_weights<From>(chebyshev_points<To>()[m]);
     return a;
   }();
   return matrix;

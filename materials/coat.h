@@ -190,12 +190,6 @@ struct CoatShape {
     return level.reflected + steep * mean + (held != 0 ? held * held::mean(eta) : R(0));
   }
 
-  /// ln of E along the surface over E along the normal.
-  R rise(R eta) const {
-    const R normal = split(R(1), eta).reflected;
-    return normal > 0 ? std::log(split(R(0), eta).reflected / normal) : R(0);
-  }
-
   /// Of a coat that light meets at cosines of at least `least`.
   CoatShape below(R least, const Face<R>& face) const {
     constexpr R held_least = R(held::kLeast);
@@ -277,20 +271,6 @@ struct CoatNumbers {
     for (int j = 0; j < kWavelengths; ++j)
       to.shape[j] = repeated(j) ? to.shape[j - 1] : of(j, lobe);
     to.find_repeated();
-    return to;
-  }
-  /// Bare interfaces for those under films, that reflect as much along the normal as films of all
-  /// thicknesses do.
-  CoatNumbers without_films() const {
-    CoatNumbers to = *this;
-    to.films = {};
-    for (int j = 0; j < kWavelengths; ++j) {
-      if (!films[j].there()) continue;
-      FilmAlong<R> normal({R(1)}, films[j].ior, eta[j]);
-      const R root = std::sqrt(normal.split(films[j].phases, R(0)).reflected[0]);
-      to.eta[j] = std::max((1 + root) / (1 - root), 1 + kNextToOne);
-    }
-    to.find_shapes();
     return to;
   }
   FresnelSplit<R> split(int j, CoatDirection<R>& along) const {

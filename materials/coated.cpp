@@ -11,8 +11,8 @@ const CoatedTables kGgxCoated{
     {kGgxStretchedUnderTable0, kGgxStretchedUnderTable1, kGgxStretchedUnderTable2,
      kGgxStretchedUnderTable3},
     kGgxStretchedCoatTable,
-    kGgxStretchedChangeTable,
-    kGgxSpreadTable};
+    kGgxSpreadTable,
+    kGgxStretchedSpreadTable};
 const CoatedTables kBeckmannCoated{
     {kBeckmannUnderTable0, kBeckmannUnderTable1, kBeckmannUnderTable2, kBeckmannUnderTable3,
      kBeckmannUnderTable4},
@@ -20,21 +20,21 @@ const CoatedTables kBeckmannCoated{
     {kBeckmannStretchedUnderTable0, kBeckmannStretchedUnderTable1, kBeckmannStretchedUnderTable2,
      kBeckmannStretchedUnderTable3},
     kBeckmannStretchedCoatTable,
-    kBeckmannStretchedChangeTable,
-    kBeckmannSpreadTable};
+    kBeckmannSpreadTable,
+    kBeckmannStretchedSpreadTable};
 const CoatedTables kGlossyCoated{{kGlossyUnderTable0, kGlossyUnderTable1, kGlossyUnderTable2,
                                   kGlossyUnderTable3, kGlossyUnderTable4},
                                  kGlossyCoatTable,
                                  {},
                                  nullptr,
-                                 nullptr,
-                                 kGlossySpreadTable};
+                                 kGlossySpreadTable,
+                                 nullptr};
 const CoatedTables kMatteCoated{
     {kMatteUnderTable0, kMatteUnderTable1, kMatteUnderTable2, kMatteUnderTable3, kMatteUnderTable4},
     nullptr,
     {},
     nullptr,
-    nullptr,
-    kMatteSpreadTable};
+    kMatteSpreadTable,
+    nullptr};
 
 }  // namespace mms::materials

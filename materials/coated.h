@@ -21,11 +21,6 @@
 /// the direction is in further tables, as polynomials over the shape that they have along it
 /// (materials/tables/stretched_coats.cpp). What that is off by says materials/combine.h. Below
 /// several coats and films G is solved for (materials/under_coats.h).
-///
-/// As G - g = (K - 1) g and G + g = (K + 1) g, of first order in what A varies by G^2 - A is
-/// (K - 1) (K + 1)^-1 A: linear. So the last table holds how much A at each of a few cosines counts
-/// along a direction, of stretched facets less of round ones of the same mean width: by this the
-/// former have more than the latter of what a film changes.
 
 #include <algorithm>
 #include <array>
@@ -43,11 +38,13 @@ namespace mms::materials {
 namespace axes {
 /// Widths of `rough_matte`, and directions of a lobe's matrix.
 inline constexpr int kCoatedMatte = 5, kSpread = 32;
+/// Directions of one of stretched facets along each azimuth, azimuths, and quotients of widths.
+inline constexpr int kStretchedSpread = 24, kSpreadTurns = 8, kSpreadRings = 7;
 /// s of the coats that lobes lie below in the tables.
 inline constexpr double kHeld[] = {0, 0.2, 0.5, 0.8, 1}, kStretchedHeld[] = {0, 0.3, 0.7, 1};
 /// Of stretched facets; the axis of the width is that of an interface.
 inline constexpr int kStretchedCoatAlpha = 22, kStretchedCoatIndex = 23,
-                     kStretchedCoatDirection = 28, kStretchedCoatDegree = 16, kChangePoints = 10;
+                     kStretchedCoatDirection = 28, kStretchedCoatDegree = 16;
 inline constexpr double kLeastCoatIndex = 0.1, kMostCoatIndex = 0.9844914;  ///< of 1.0002 and 32
 
 template <class R>
@@ -67,6 +64,19 @@ inline R spread_direction(R z, R width) {
   const R d = coat_direction(z), s = std::sqrt(std::max((1 - z) * (1 + z), R(0)));
   return R(0.35) * d * std::sqrt(d) + R(0.65) * direction(z, s, width);
 }
+/// Of the widths of stretched facets: what is uniform here are the rings of their shapes that
+/// tables are made from.
+template <class R>
+inline R ring(R wide, R narrow) {
+  const R radius = Shape<R>::radius(wide, narrow);
+  return std::asin(std::min(radius, R(1))) * (2 / std::numbers::pi_v<R>);
+}
+/// Of a tangent (x, y), x along the wider axis, `quotient` times as wide as the other: half of it
+/// azimuths from the narrower axis, half those of a tangent that is stretched nearly as much.
+template <class R>
+inline R spread_turn(R x, R y, R quotient) {
+  return (azimuth(std::sqrt(quotient * std::sqrt(quotient)) * x, y) + azimuth(x, y)) / 2;
+}
 }  // namespace axes
 
 /// Of one kind of lobe, for relative indices above 1.
@@ -78,13 +88,16 @@ struct CoatedTables {
   /// [root of both alphas][index][direction][term of ShapeBasis].
   const float* under_stretched[std::size(axes::kStretchedHeld)];
   const float* coat_stretched;
-  /// [root of both alphas][direction][point][term of ShapeBasis], points those of Chebyshev.
-  const float* change_stretched;
   /// [width][column][direction o]: int K l |cos i| di for each of axes::kSpread polynomials l over
   /// axes::spread_direction, which are 1 at one of the directions and 0 at the others. Then the
   /// cosines of these directions.
   const float* spread;
   static constexpr int kColumns = axes::kSpread + 1;
+  /// The same of stretched facets, [root of both alphas][ring][column][direction o], the directions
+  /// of axes::kStretchedSpread at each of axes::kSpreadTurns azimuths, Chebyshev's points over
+  /// axes::spread_turn: polynomials of both.
+  const float* spread_stretched;
+  static constexpr int kStretchedColumns = axes::kStretchedSpread * axes::kSpreadTurns + 1;
 };
 extern const CoatedTables kGgxCoated, kBeckmannCoated, kGlossyCoated, kMatteCoated;
 
@@ -114,22 +127,22 @@ struct FacetsAlong {
   R like;  ///< the width of round ones that are nearly as wide; at most 1
   R mean;  ///< of both widths, the geometric one
   bool stretched = false;
+  R wide, narrow, x, y;  ///< x along the wider axis
   Stencil<R> root{};
   Shape<R> shape{};
 
-  FacetsAlong(R ax, R ay, Vec3<R> w) : like(ax), mean(std::sqrt(ax * ay)), stretched(ax != ay) {
+  FacetsAlong(R ax, R ay, Vec3<R> w)
+      : like(ax),
+        mean(std::sqrt(ax * ay)),
+        stretched(ax != ay),
+        wide(std::max(ax, ay)),
+        narrow(std::min(ax, ay)),
+        x(ax < ay ? w.y : w.x),
+        y(ax < ay ? w.x : w.y) {
     if (!stretched) return;
-    if (ax < ay) std::swap(ax, ay), std::swap(w.x, w.y);
-    like = coated_width(ax, ay, w);
+    like = coated_width(w.z);
     root = Stencil<R>::at(axes::interface_alpha(mean), axes::kStretchedCoatAlpha);
-    shape = Shape<R>::of(ax, ay, w.x, w.y);
-  }
-
-  /// `x` along the wider axis.
-  static R coated_width(R wide, R narrow, Vec3<R> w) {
-    const R x = wide * w.x, y = narrow * w.y, area = wide * narrow;
-    const R along = std::sqrt(x * x + y * y + w.z * w.z * area);
-    return along / (1 + (along - std::sqrt(area)));
+    shape = Shape<R>::of(wide, narrow, x, y);
   }
 
   /// The sum of `count` tables, by weights, for relative index `eta` > 1 and a direction at `place`
@@ -150,18 +163,11 @@ struct FacetsAlong {
     const auto mean_through = [](R index) { return 1 - fresnel_dielectric_diffuse(index); };
     return eta > 32 ? sum * (mean_through(eta) / mean_through(R(32))) : sum;
   }
-  /// What G^2 changes by where A changes by 1 at each point.
-  [[gnu::noinline]] std::array<R, axes::kChangePoints> changes(const float* table, R place) const {
-    using namespace axes;
-    using Basis = ShapeBasis<R>;
-    constexpr int terms = Basis::terms(kStretchedCoatDegree), numbers = terms * kChangePoints;
-    R sums[numbers] = {};
-    add_terms(sums, numbers, table, R(1), root, numbers * coefficients(kStretchedCoatDirection),
-              Stencil<R>::at(place, kStretchedCoatDirection), numbers);
-    const Basis basis(shape, kStretchedCoatDegree);
-    std::array<R, kChangePoints> of_points;
-    for (int i = 0; i < kChangePoints; ++i) of_points[i] = basis.sum(sums + i * terms);
-    return of_points;
+
+ private:
+  R coated_width(R z) const {
+    const R a = wide * x, b = narrow * y, along = std::sqrt(a * a + b * b + z * z * (mean * mean));
+    return along / (1 + (along - mean));
   }
 };
 
@@ -210,14 +216,11 @@ struct CoatedLobe {
 
   bool stretched() const { return along.stretched; }
   Broadness<R> broad() const { return Broadness<R>::facets(as_facets); }
-  /// Round facets of the same mean width; other lobes as they are.
-  CoatedLobe round() const {
-    if (!stretched()) return *this;
-    return facets(*tables, along.mean, along.mean, {R(0), R(0), z});
-  }
-  /// Of lobes that are not stretched.
+  /// Whether it is the same but for its direction.
   bool is_like(const CoatedLobe& other) const {
-    return tables == other.tables && width == other.width && cosines == other.cosines;
+    if (tables != other.tables || stretched() != other.stretched()) return false;
+    if (stretched()) return along.wide == other.along.wide && along.narrow == other.along.narrow;
+    return width == other.width && cosines == other.cosines;
   }
 
   /// G^2 below a coat of relative index `eta` > 1, for T = `through`. What rounding leaves of G^2
@@ -240,43 +243,17 @@ struct CoatedLobe {
     }
     return std::max(through + varies * above, through / 2);
   }
-  /// By how much G^2 of stretched facets is more than of round ones of the same mean width, of
-  /// first order, for A at the points of axes::kChangePoints.
-  std::array<R, axes::kChangePoints> changes() const {
-    return along.changes(tables->change_stretched, place);
-  }
   /// The same as a part of a coat, for E = `reflected`.
-  R as_coat(R eta, R reflected) const { return times_exp(reflected, log_quotient(eta)); }
-  /// The same of a coat that is `lower` below others, and `alone` where none is above. There E
-  /// varies little, and so most is of first order; the rest is as where it is alone, by the square
-  /// of how much less the logarithm of E rises.
-  R as_lower_coat(R eta, const CoatShape<R>& alone, const CoatShape<R>& lower) const {
-    const R rise = alone.rise(eta), varies = rise > 0 ? lower.rise(eta) / rise : R(1);
-    return times_exp(
-        lower.split(z, eta).reflected,
-        first_order(eta, lower) + varies * varies * (log_quotient(eta) - first_order(eta, alone)));
-  }
-
- private:
-  static R times_exp(R x, R log) { return x * std::exp(limited(log, R(-20), R(40))); }
-
-  /// ln (G^2 / E) as a part of a coat.
-  R log_quotient(R eta) const {
+  R as_coat(R eta, R reflected) const {
     R quotient = interpolate_coat(tables->coat, width, eta, place);
     if (stretched()) {
       const R one = 1;
       quotient += along.difference(&tables->coat_stretched, &one, 1, eta, place);
     }
-    return quotient;
-  }
-  /// The same of first order in what E varies by: G^2 - T is linear in T, and so is G^2 - E in E.
-  R first_order(R eta, const CoatShape<R>& coat) const {
-    const FresnelSplit<R> e = coat.split(z, eta);
-    if (!(e.reflected > 0)) return 0;
-    const R above = below(eta, coat, e.transmitted) - e.transmitted;
-    return std::log(std::max(1 - above / e.reflected, R(0.05)));
+    return reflected * std::exp(limited(quotient, R(-20), R(40)));
   }
 
+ private:
   CoatedLobe(const CoatedTables& its_tables, const Stencil<R>& its_width, R its_cosines, Vec3<R> w)
       : tables(&its_tables),
         width(its_width),

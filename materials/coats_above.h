@@ -69,17 +69,11 @@ class SolvedCoat {
   void solve(const CoatGiven<R>& given) {
     given_ = given;
     numbers_ = {given.ior.v.data(), given.films, given.held, given.even, given.least};
-    bare_.reset();
     mean_through_.reset();
   }
   bool solves(const CoatGiven<R>& given) const { return given == given_; }
 
   const CoatNumbers<R>& numbers() const { return numbers_; }
-  /// The same without films.
-  const CoatNumbers<R>& bare() const {
-    if (!bare_ && numbers_.filmed()) bare_ = numbers_.without_films();
-    return bare_ ? *bare_ : numbers_;
-  }
   /// The mean over the hemisphere of what it lets through, where nothing is above it. \pre no film
   const Spectrum<R>& mean_through() {
     if (!mean_through_) {
@@ -94,7 +88,6 @@ class SolvedCoat {
  private:
   CoatGiven<R> given_;
   CoatNumbers<R> numbers_;
-  mutable std::optional<CoatNumbers<R>> bare_;  ///< where a film is, once it is asked for
   std::optional<Spectrum<R>> mean_through_;
 };
 
@@ -148,8 +141,6 @@ struct CoatTree {
   const CoatAbove<R>& operator[](int base) const { return coats.of[base]; }
   CoatAbove<R>& operator[](int base) { return coats.of[base]; }
   const CoatNumbers<R>& numbers(int base) const { return solved[base].numbers(); }
-  /// The same without films.
-  const CoatNumbers<R>& bare(int base) const { return solved[base].bare(); }
   /// |Cosine| of light that meets a node, from that outside all coats.
   R cosine_inside(int node, int j, R z) const {
     const int base = above.of[node].base;
@@ -345,11 +336,10 @@ inline bool is_solved_for(const CoatTree<R>& coats, const NodeAbove& above) {
 /// itself, as broad as `broad`, is a part of.
 template <class R>
 inline Coats<R> coats_above(const CoatTree<R>& coats, const NodeAbove& above,
-                            const Broadness<R>& broad = {}, bool stretched = false) {
+                            const Broadness<R>& broad = {}) {
   Coats<R> all;
   if (above.part_of >= 0) all.part = coats.numbers(above.part_of).as(broad);
-  for (int at = above.base; at >= 0; at = coats[at].upper)
-    all.add(coats.numbers(at), stretched ? &coats.bare(at) : nullptr);
+  for (int at = above.base; at >= 0; at = coats[at].upper) all.add(coats.numbers(at));
   return all;
 }
 

@@ -51,11 +51,10 @@
 /// inverse (materials/coat.h), and a coat whose index is 1 at every wavelength is not there.
 ///
 /// Under a film, of `film_mix(base, coat, ior, film_ior, thickness, wavelength)`, E is what film
-/// and interface reflect (materials/coat.h), and g and h are solved for too. Mattes, round facets
-/// and `glossy` in it and under it keep their energy within 1e-4 where it is up to 1.2 waves thick,
-/// 3e-4 up to 2, 1e-3 up to 4 and 1e-4 above. Of stretched facets what films change is known of
-/// first order: under films of up to 1500 nm they are within 5e-4 at anisotropy 0.5 and 2e-3 at
-/// 0.9, in such a coat within 3e-3 and 1.5e-2, on average 2e-4 and 6e-4.
+/// and interface reflect (materials/coat.h), and g and h are solved for too. Mattes, facets and
+/// `glossy` in it and under it keep their energy within 1e-4 where it is up to 1.2 waves thick, 3e-4
+/// up to 2, 1e-3 up to 4 and 1e-4 above; stretched facets of roughness from 0.2 within 2e-4 up to
+/// 1.2 waves, at any anisotropy, and 1e-3 up to 2.
 ///
 /// Interfaces right below the coat, or below several, get what passes it once if light changes
 /// sides, twice if it stays outside, and never if it stays inside, along the directions outside;
@@ -273,70 +272,6 @@ inline Spectrum<R> delta_weight(const NodeWeight<R>& w, const CoatTree<R>& coats
   return f;
 }
 
-/// G^2 of a lobe below several coats without their films, or as a part of a lower one, as the
-/// product of what it is for each alone: of first order in what they vary, which below the first
-/// coat is little (materials/coat.h).
-template <class R>
-inline R squared_of_each(const CoatTree<R>& coats, const NodeAbove& above,
-                         const CoatedLobe<R>& lobe, int j) {
-  R squared = 1;
-  if (above.part_of >= 0) {
-    const CoatNumbers<R>& coat = coats.bare(above.part_of);
-    squared = lobe.as_lower_coat(coat.eta[j], CoatShape<R>(lobe.broad(), coat.mean[j]),
-                                 coat.of(j, lobe.broad()));
-  }
-  for_each_together(coats, above.base, j, [&](int base) {
-    const CoatNumbers<R>& coat = coats.bare(base);
-    squared *= lobe.below(coat.eta[j], coat.shape[j], coat.split(j, lobe.z).transmitted);
-  });
-  return squared;
-}
-
-/// G^2 of a lobe along one direction from what is solved for round ones of the same mean width. Of
-/// stretched lobes it is as much more below bare coats as the product is; films add what they
-/// change of first order.
-template <class R>
-class SquaredUnderCoats {
- public:
-  SquaredUnderCoats(const CoatTree<R>& coats, const NodeAbove& above, const UnderCoats<R>& under,
-                    const CoatedLobe<R>& lobe)
-      : coats_(coats), above_(above), under_(under), lobe_(lobe), along_(under.along(lobe)) {}
-
-  /// For T = `through` and, of a part of a coat, E = `reflected`. Quick where j is as the one
-  /// before.
-  R at(int j, R through, R reflected) {
-    const R solved = under_.squared(j, along_, through, reflected);
-    return lobe_.stretched() ? stretched(j, solved, through * reflected) : solved;
-  }
-
- private:
-  [[gnu::noinline]] R stretched(int j, R solved, R share) {
-    if (last_ + 1 != j || !bare_repeated(j)) {
-      of_round_ = squared_of_each(coats_, above_, lobe_.round(), j);
-      of_stretched_ = squared_of_each(coats_, above_, lobe_, j);
-    }
-    last_ = j;
-    if (!under_.filmed(j)) return of_round_ > 0 ? solved * (of_stretched_ / of_round_) : R(0);
-    return std::max(solved + (of_stretched_ - of_round_) + under_.changed(j, along_),
-                    share * kLeastSquared<R>);
-  }
-  /// Whether without films the coats are as at the wavelength before.
-  bool bare_repeated(int j) const {
-    bool all = above_.part_of < 0 || coats_.bare(above_.part_of).repeated(j);
-    for_each_together(coats_, above_.base, j,
-                      [&](int base) { all = all && coats_.bare(base).repeated(j); });
-    return all;
-  }
-
-  const CoatTree<R>& coats_;
-  const NodeAbove& above_;
-  const UnderCoats<R>& under_;
-  const CoatedLobe<R>& lobe_;
-  typename UnderCoats<R>::Along along_;
-  R of_stretched_{}, of_round_{};
-  int last_ = -1;  ///< the wavelength that these are of
-};
-
 /// What the coats of a lobe are to it along one direction.
 template <class R>
 struct CoatsSeen {
@@ -430,8 +365,8 @@ inline Spectrum<R> coated_scaling(const CoatTree<R>& coats, const NodeAbove& abo
                                   const CoatsSeen<R>& seen, const Spectrum<R>* most = nullptr) {
   CoatedShares<R> shares(coats, above, lobe, seen);
   const CoatNumbers<R>& coat = shares.coat();
-  std::optional<SquaredUnderCoats<R>> squared_under;
-  if (under) squared_under.emplace(coats, above, *under, lobe);
+  typename UnderCoats<R>::Along along;
+  if (under) along = under->along(lobe);
   Spectrum<R> g{R(1)};
   bool known = false, solved = false;
   for (int j = 0; j < kWavelengths; ++j) {
@@ -448,7 +383,7 @@ inline Spectrum<R> coated_scaling(const CoatTree<R>& coats, const NodeAbove& abo
     const CoatShape<R> shape = shares.shape(j);
     CoatedShare<R> s = shares.at(j, shape);
     if (most) s.share = std::min(s.share, (*most)[j] * s.reflected * s.through);
-    const R squared = solved          ? squared_under->at(j, s.through, s.reflected)
+    const R squared = solved          ? under->squared(j, along, s.through, s.reflected)
                       : shares.part() ? lobe.as_coat(eta, s.reflected)
                                       : lobe.below(eta, shape, s.through);
     g[j] = squared > 0 ? s.share / std::sqrt(squared) : R(0);

@@ -353,12 +353,13 @@ struct Shape {
 
   /// `x` along the wider axis.
   static Shape of(R wide, R narrow, R x, R y, R widening = R(axes::kWidening)) {
-    const R radius = (wide - narrow) / (wide + narrow) * R(11.0 / 9);
+    const R radius = Shape::radius(wide, narrow);
     x *= widened(radius, widening);
     const R length2 = x * x + y * y;
     if (!(length2 > 0)) return {-radius, 0};
     return {radius * ((y - x) * (y + x) / length2), radius * (2 * std::abs(x * y) / length2)};
   }
+  static R radius(R wide, R narrow) { return (wide - narrow) / (wide + narrow) * R(11.0 / 9); }
   /// How much tangents of azimuths are: this is smooth at the centre too.
   static R widened(R radius, R widening) {
     return (1 + widening * radius) / (1 - widening * radius);

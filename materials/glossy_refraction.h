@@ -24,7 +24,7 @@
 
 #include "materials/glass_coat.h"
 #include "materials/glossy.h"
-#include "materials/under_coats.h"
+#include "materials/spread.h"
 
 namespace mms::materials {
 

@@ -68,19 +68,9 @@ inline void visit_rows(const Visit& visit, int first, R weight, const Stencil<R>
 /// Adds `weight` times what the table holds for each of `terms` numbers.
 template <class R, class... Axes>
 inline void add_terms(R* sums, int terms, const float* table, R weight, const Axes&... axes) {
-#if defined(__x86_64__)
-  if constexpr (sizeof(R) <= sizeof(double)) {  // no long double
-    if (terms >= avx2::Lanes<R>::kCount && __builtin_cpu_supports("avx2")) {
-      WeightedRows<R, 1 << sizeof...(Axes)> rows;  // four along each of half as many axes
-      visit_rows([&](int first, R by) { rows.add(first, by); }, 0, weight, axes...);
-      return avx2::add_rows(sums, terms, table, rows);
-    }
-  }
-#endif
-  const auto add = [&](int first, R by) {
-    for (int t = 0; t < terms; ++t) sums[t] += by * R(table[first + t]);
-  };
-  visit_rows(add, 0, weight, axes...);
+  WeightedRows<R, 1 << sizeof...(Axes)> rows;  // four along each of half as many axes
+  visit_rows([&](int first, R by) { rows.add(first, by); }, 0, weight, axes...);
+  add_rows(sums, terms, table, rows);
 }
 
 }  // namespace mms::materials

@@ -4,60 +4,26 @@
 /// \file
 /// Lobes below several coats, one right under the other, and the lobes of such coats: G of
 /// materials/coated.h where what is to be reflected is a product, the T of all coats above, times E
-/// of the coat that the lobe is a part of, if it is. That is no table's, and so is solved for, once
-/// for all directions: at few of them, with K as a matrix and polynomials between. White round
-/// facets, `glossy` and `rough_matte` keep their energy within 1e-4, for indices from 1.02 to 4. Of
-/// stretched facets that is what round ones of the same mean width have; they have other than these
-/// what tables say of bare coats, and of first order what films change (materials/combine.h).
+/// of the coat that the lobe is a part of, if it is; and so under films. That is no table's, and so
+/// is solved for, once for all directions: at few of them, with K as a matrix and polynomials
+/// between (materials/spread.h). How exactly, says materials/combine.h.
 
 #include <algorithm>
 #include <array>
 #include <bitset>
 #include <cmath>
-#include <numbers>
+#include <cstddef>
+#include <memory>
 #include <optional>
 
 #include "base/spectrum.h"
-#include "base/warp.h"
-#include "materials/chebyshev.h"
 #include "materials/coat.h"
 #include "materials/coated.h"
 #include "materials/lobe.h"
 #include "materials/nodes.h"
+#include "materials/spread.h"
 
 namespace mms::materials {
-
-/// Chebyshev's points on [0, 1], where polynomials over axes::spread_direction are known.
-template <class R>
-struct SpreadPoints {
-  R place[axes::kSpread], weight[axes::kSpread];  ///< the weights are of the barycentric form
-
-  SpreadPoints() {
-    constexpr int last = axes::kSpread - 1;
-    for (int k = 0; k <= last; ++k) {
-      const R s = std::sin(kPi<R> / 2 * R(k) / R(last));
-      place[k] = s * s;
-      weight[k] = R(k % 2 ? -1 : 1) * (k == 0 || k == last ? R(0.5) : R(1));
-    }
-  }
-  static const SpreadPoints& get() {
-    static const SpreadPoints points;
-    return points;
-  }
-
-  /// What a polynomial's values at the points are multiplied with for its value at `x`.
-  std::array<R, axes::kSpread> weights_at(R x) const {
-    std::array<R, axes::kSpread> to;
-    R sum = 0;
-    for (int k = 0; k < axes::kSpread; ++k) {
-      const R d = x - place[k];
-      to[k] = weight[k] / (d == 0 ? R(1e-20) : d);
-      sum += to[k];
-    }
-    for (R& w : to) w /= sum;
-    return to;
-  }
-};
 
 /// What lies above a lobe, the nearest first, borrowed. All that is solved for depends on these.
 template <class R>
@@ -65,27 +31,10 @@ struct Coats {
   static constexpr int kMost = kMaxNodes / 2;  ///< each is a node, with one for its own lobe
 
   std::optional<CoatNumbers<R>> part;  ///< the coat that the lobe is a part of, as that lobe alone
-  std::array<const CoatNumbers<R>*, kMost> of, bare;  ///< `bare` without their films
+  std::array<const CoatNumbers<R>*, kMost> of;
   int count = 0;
 
-  /// `without_films` is of stretched lobes alone.
-  void add(const CoatNumbers<R>& coat, const CoatNumbers<R>* without_films) {
-    of[count] = &coat;
-    bare[count++] = without_films;
-  }
-  /// The same without their films. \pre a stretched lobe
-  Coats without_films() const {
-    Coats to = *this;
-    to.of = bare;
-    if (part) to.part = part->without_films();
-    return to;
-  }
-  /// Whether a film is part of one at wavelength j.
-  bool filmed(int j) const {
-    const auto is = [j](const CoatNumbers<R>& coat) { return coat.films[j].there(); };
-    return (part && is(*part)) ||
-           std::any_of(of.begin(), of.begin() + count, [&](const auto* coat) { return is(*coat); });
-  }
+  void add(const CoatNumbers<R>& coat) { of[count++] = &coat; }
   /// Whether wavelength j is as the one before.
   bool repeated(int j) const {
     return (!part || part->repeated(j)) &&
@@ -119,7 +68,6 @@ class CoatsAlong {
     return t;
   }
   R reflected(int j) { return coats_.part ? coats_.part->split(j, part_).reflected : R(1); }
-  R share(int j) { return through(j) * reflected(j); }
 
  private:
   const Coats<R>& coats_;
@@ -184,113 +132,87 @@ class MeanThrough {
   Spectrum<R> mean_;
 };
 
-/// A lobe's matrix, of its width.
-template <class R>
-struct SpreadMatrix {
-  static constexpr int kDirections = axes::kSpread;
-  using Values = std::array<R, kDirections>;
-  std::array<Values, CoatedTables::kColumns> rows{};  ///< as in CoatedTables::spread
-
-  explicit SpreadMatrix(const CoatedLobe<R>& lobe) {
-    constexpr int n0 = CoatedTables::kColumns * kDirections;
-    for (int q = 0; q < 4; ++q) {
-      const float* p = lobe.tables->spread + (lobe.width.first + q) * n0;
-      for (int k = 0; k < CoatedTables::kColumns; ++k)
-        for (int j = 0; j < kDirections; ++j)
-          rows[k][j] += lobe.width.weight[q] * R(p[k * kDirections + j]);
-    }
-  }
-
-  R cosine(int k) const { return limited(rows[kDirections][k], R(0), R(1)); }
-
-  /// int K g |cos i| di along the direction of `lobe`, of whose width the matrix is, for `g` of the
-  /// |cosine|.
-  template <class G>
-  R mean_along(const CoatedLobe<R>& lobe, const G& g) const {
-    Values of;
-    for (int k = 0; k < kDirections; ++k) of[k] = g(cosine(k));
-    const Values all = mean(of), weights = SpreadPoints<R>::get().weights_at(
-                                     axes::spread_direction(lobe.z, lobe.cosines));
-    R sum = 0;
-    for (int k = 0; k < kDirections; ++k) sum += weights[k] * all[k];
-    return sum;
-  }
-
-  /// int K `of` |cos i| di along the directions.
-  Values mean(const Values& of) const {
-    Values sum{};
-    for (int k = 0; k < kDirections; ++k)
-      for (int j = 0; j < kDirections; ++j) sum[j] += rows[k][j] * of[k];
-    return sum;
-  }
+/// G^2 of a lobe at the directions of its matrix, for each solution.
+template <class R, class Matrix>
+struct SolvedDirections {
+  R above[kWavelengths][Matrix::kDirections];  ///< G^2 - T
+  /// Of a part of a coat: ln of G^2 / E over that without E, as E may be next to nothing along most
+  /// directions; under a film, where it is so along few, G^2 - T E.
+  R rest[kWavelengths][Matrix::kDirections];
 };
 
-/// By a power of what is still wrong, an eigenvalue l of K in [0, 1] leaves 1 - power (1 + l) of
-/// its error. Two powers in turn are the best of two (Chebyshev), a seventeenth at most.
+/// What stretched lobes are solved with, the last one's matrix, and what is solved: a megabyte that
+/// few materials need.
 template <class R>
-inline constexpr R kScalingPowers[] = {1 / (R(1.5) + std::numbers::sqrt2_v<R> / 4),
-                                       1 / (R(1.5) - std::numbers::sqrt2_v<R> / 4)};
+struct StretchedSolutions {
+  using Matrix = StretchedMatrix<R>;
+  Matrix matrix;
+  PerNode<SolvedDirections<R, Matrix>> solved;
 
-/// G of materials/coated.h for a lobe that is to reflect `share`, by powers of what is still wrong
-/// (Knight, Ruiz and Ucar 2014), of first order. Four steps leave less than 1e-4 where T is to be
-/// reflected, twelve of E.
-template <class R>
-inline typename SpreadMatrix<R>::Values scaled(const SpreadMatrix<R>& matrix,
-                                               const typename SpreadMatrix<R>::Values& share,
-                                               int steps) {
-  using Values = typename SpreadMatrix<R>::Values;
-  Values g = share, mean;
-  const auto spread = [&] {
-    mean = matrix.mean(g);
-    for (R& m : mean) m = std::max(m, R(1e-6));
-  };
-  const int n = int(g.size());
-  spread();
-  for (int k = 0; k < n; ++k) g[k] = share[k] / std::sqrt(mean[k]);
-  spread();
-  for (int step = 0; step < steps; ++step) {
-    for (int k = 0; k < n; ++k)  // along the surface nothing may pass
-      if (g[k] > 0)
-        g[k] *=
-            std::max(1 + kScalingPowers<R>[step % 2] * (share[k] / (g[k] * mean[k]) - 1), R(0.2));
-    spread();
-  }
-  return mean;
-}
+  StretchedSolutions() {}  // not zeroed
+};
 
-/// What G^2 under films is at least of what is to be reflected: more than rounding and polynomials
-/// leave. Where a film keeps light from being reflected along all but grazing directions, it is so
-/// little along these.
-template <class R>
-inline constexpr R kLeastSquared = R(1e-3);
-
-/// G of a lobe, as of round ones of the same mean width; and what films change of what the lobe is
-/// to reflect, where it is stretched.
+/// G of a lobe, for the wavelengths at which the nearest index is above 1.
 template <class R>
 class UnderCoats {
-  using Values = typename SpreadMatrix<R>::Values;
-
  public:
-  /// For the wavelengths at which the nearest index is above 1.
-  void solve(const CoatedLobe<R>& lobe, const Coats<R>& coats) {
-    lobe_ = lobe.round();
-    stretched_ = lobe.stretched();
+  /// Of the lobe of `node`. `stretched` is there where a lobe is, and stays; of each node it holds
+  /// what is asked for.
+  void solve(const CoatedLobe<R>& lobe, const Coats<R>& coats,
+             const std::unique_ptr<StretchedSolutions<R>>& stretched, int node) {
+    lobe_ = lobe;
     kept_.keep(coats);
     reflects_ = coats.part.has_value();
     count_ = 0;
-    filmed_.reset();
-    const SpreadMatrix<R> matrix(lobe_);
     std::array<int, kWavelengths> wavelength;  // of a solution
     for (int j = 0; j < kWavelengths; ++j) {
       repeated_[j] = coats.repeated(j);
       at_[j] = std::max(count_ - 1, 0);
       if (!coats.known(j) || (count_ > 0 && repeated_[j])) continue;
-      filmed_[count_] = coats.filmed(j);
       at_[j] = count_;
       wavelength[count_++] = j;
     }
+    stretched_ = lobe.stretched() ? &stretched->solved.of[node] : nullptr;
+    if (!stretched_) return solve_by(SpreadMatrix<R>(lobe), coats, wavelength, round_);
+    stretched->matrix.read(lobe);
+    solve_by(stretched->matrix, coats, wavelength, *stretched_);
+  }
+  bool solves(const CoatedLobe<R>& lobe, const Coats<R>& coats,
+              const std::unique_ptr<StretchedSolutions<R>>&, int) const {
+    return lobe.is_like(lobe_) && kept_.are(coats);
+  }
+
+  /// What `squared` takes of the direction of a lobe.
+  struct Along {
+    std::array<R, kWavelengths> above{}, rest{};
+  };
+  Along along(const CoatedLobe<R>& lobe) const {
+    return stretched_ ? at(*stretched_, StretchedMatrix<R>::weights_at(lobe))
+                      : at(round_, SpreadMatrix<R>::weights_at(lobe));
+  }
+
+  /// Whether wavelength j is as the one before.
+  bool repeated(int j) const { return repeated_[j]; }
+
+  /// G^2 of wavelength j along the direction, for T = `through` and, of a part of a coat, E =
+  /// `reflected`.
+  R squared(int j, const Along& along, R through, R reflected = 1) const {
+    const R below = std::max(through + along.above[at_[j]], through / 2);
+    if (!reflects_) return below;
+    const R rest = along.rest[at_[j]], all = through * reflected;
+    if (filmed_[at_[j]]) return std::max(all + rest, all * least_[at_[j]]);
+    return below * reflected * std::exp(limited(rest, R(-20), R(40)));
+  }
+
+ private:
+  template <class Matrix>
+  void solve_by(const Matrix& matrix, const Coats<R>& coats,
+                const std::array<int, kWavelengths>& wavelength,
+                SolvedDirections<R, Matrix>& solved) {
+    constexpr int kDirections = Matrix::kDirections;
+    using Values = typename Matrix::Values;
     Values through[kWavelengths], reflected[kWavelengths];
-    for (int k = 0; k < axes::kSpread; ++k) {
+    for (int k = 0; k < kDirections; ++k) {
       CoatsAlong<R> along(coats, matrix.cosine(k));
       for (int n = 0; n < count_; ++n) {
         through[n][k] = along.through(wavelength[n]);
@@ -299,86 +221,46 @@ class UnderCoats {
     }
     for (int n = 0; n < count_; ++n) {
       const Values below = scaled(matrix, through[n], 4);
-      for (int k = 0; k < axes::kSpread; ++k) above_[n][k] = below[k] * below[k] - through[n][k];
+      for (int k = 0; k < kDirections; ++k)
+        solved.above[n][k] = below[k] * below[k] - through[n][k];
       if (!reflects_) continue;
       Values all;
-      for (int k = 0; k < axes::kSpread; ++k) all[k] = through[n][k] * reflected[n][k];
-      const Values part = scaled(matrix, all, 12);
-      filmed_part_[n] = coats.part->films[wavelength[n]].there();
-      for (int k = 0; k < axes::kSpread; ++k)
-        rest_[n][k] = filmed_part_[n]
-                          ? part[k] * part[k] - all[k]
-                          : 2 * std::log(part[k] / below[k]) - std::log(reflected[n][k]);
+      for (int k = 0; k < kDirections; ++k) all[k] = through[n][k] * reflected[n][k];
+      const Values part = scaled(matrix, all, Matrix::kCoatSteps);
+      filmed_[n] = coats.part->films[wavelength[n]].there();
+      least_[n] = 1;
+      for (int k = 0; k < kDirections; ++k)
+        if (all[k] > 0) least_[n] = std::min(least_[n], part[k] * part[k] / all[k] / 2);
+      for (int k = 0; k < kDirections; ++k)
+        solved.rest[n][k] = filmed_[n]
+                                ? part[k] * part[k] - all[k]
+                                : 2 * std::log(part[k] / below[k]) - std::log(reflected[n][k]);
     }
-    if (!stretched_ || filmed_.none()) return;
-    const Coats<R> bare = coats.without_films();
-    for (int i = 0; i < axes::kChangePoints; ++i) {
-      const R z = R(chebyshev_points<axes::kChangePoints>()[i]);
-      CoatsAlong<R> along(coats, z), bare_along(bare, z);
-      for (int n = 0; n < count_; ++n)
-        if (filmed_[n])
-          changed_[n][i] = along.share(wavelength[n]) - bare_along.share(wavelength[n]);
-    }
-  }
-  bool solves(const CoatedLobe<R>& lobe, const Coats<R>& coats) const {
-    return lobe.stretched() == stretched_ && lobe.round().is_like(lobe_) && kept_.are(coats);
   }
 
-  /// What `squared` takes of the direction of a lobe.
-  struct Along {
-    std::array<R, kWavelengths> above{}, rest{}, changed{};
-  };
-  Along along(const CoatedLobe<R>& lobe) const {
-    const Values weights =
-        SpreadPoints<R>::get().weights_at(axes::spread_direction(lobe.z, lobe_.cosines));
+  /// By `weights`, what values at the directions are multiplied with.
+  template <class Solved, class Values>
+  Along at(const Solved& solved, const Values& weights) const {
     Along along;
-    if (stretched_ && filmed_.any()) {
-      const auto changes = lobe.changes();
-      for (int n = 0; n < count_; ++n)
-        if (filmed_[n])
-          for (int i = 0; i < axes::kChangePoints; ++i)
-            along.changed[n] += changes[i] * changed_[n][i];
-    }
     for (int n = 0; n < count_; ++n)
-      for (int k = 0; k < axes::kSpread; ++k) {
-        along.above[n] += weights[k] * above_[n][k];
-        if (reflects_) along.rest[n] += weights[k] * rest_[n][k];
+      for (std::size_t k = 0; k < weights.size(); ++k) {
+        along.above[n] += weights[k] * solved.above[n][k];
+        if (reflects_) along.rest[n] += weights[k] * solved.rest[n][k];
       }
     return along;
   }
 
-  /// Whether wavelength j is as the one before.
-  bool repeated(int j) const { return repeated_[j]; }
-  /// Whether one of the coats has a film at wavelength j.
-  bool filmed(int j) const { return filmed_[at_[j]]; }
-  /// How much more G^2 of wavelength j is by films than of round lobes.
-  R changed(int j, const Along& along) const { return along.changed[at_[j]]; }
-
-  /// G^2 of wavelength j of round lobes along the direction, for T = `through` and, of a part of a
-  /// coat, E = `reflected`.
-  R squared(int j, const Along& along, R through, R reflected = 1) const {
-    const R below = std::max(through + along.above[at_[j]], through / 2);
-    if (!reflects_) return below;
-    const R rest = along.rest[at_[j]], all = through * reflected;
-    if (filmed_part_[at_[j]]) return std::max(all + rest, all * kLeastSquared<R>);
-    return below * reflected * std::exp(limited(rest, R(-20), R(40)));
-  }
-
- private:
-  CoatedLobe<R> lobe_;  ///< as a round one
-  bool stretched_;
+  CoatedLobe<R> lobe_;
   KeptCoats<R> kept_;
   bool reflects_;                       ///< the lobe is a part of a coat
   std::bitset<kWavelengths> repeated_;  ///< wavelengths that are as the ones before
   int count_;                           ///< of solutions
-  Values above_[kWavelengths];          ///< G^2 - T at the points
-  /// Of a part of a coat: ln of G^2 / E over that without E, as E may be next to nothing along most
-  /// directions; under a film, where it is so along few, G^2 - T E.
-  Values rest_[kWavelengths];
-  std::bitset<kWavelengths> filmed_part_;  ///< solutions of which the latter is true
-  std::bitset<kWavelengths> filmed_;       ///< those of coats of which one has a film
-  /// What is to be reflected less what bare coats leave, at the points, where that is so.
-  std::array<R, axes::kChangePoints> changed_[kWavelengths];
+  SolvedDirections<R, SpreadMatrix<R>> round_;
+  SolvedDirections<R, StretchedMatrix<R>>* stretched_ = nullptr;  ///< null: of a round lobe
+  std::bitset<kWavelengths> filmed_;  ///< solutions of parts of a filmed coat
+  /// What G^2 / (T E) is at least, and half of what it is at each point: where a film keeps next to
+  /// all light from being reflected, less is what polynomials leave.
+  R least_[kWavelengths];
   std::array<int, kWavelengths> at_{};  ///< the solution of a wavelength
 };
 

@@ -91,4 +91,16 @@ template <class R, int kRows>
 }  // namespace avx2
 #endif
 
+/// Adds the rows, of `terms` numbers each, to `sums`.
+template <class R, int kRows>
+inline void add_rows(R* sums, int terms, const float* table, const WeightedRows<R, kRows>& rows) {
+#if defined(__x86_64__)
+  if constexpr (sizeof(R) <= sizeof(double))  // no long double
+    if (terms >= avx2::Lanes<R>::kCount && __builtin_cpu_supports("avx2"))
+      return avx2::add_rows(sums, terms, table, rows);
+#endif
+  for (int k = 0; k < rows.count; ++k)
+    for (int t = 0; t < terms; ++t) sums[t] += rows.weight[k] * R(table[rows.first[k] + t]);
+}
+
 }  // namespace mms::materials

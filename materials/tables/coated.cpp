@@ -59,7 +59,7 @@ std::vector<std::vector<float>> write_under(const TableFiles& to, const std::str
 /// The columns of a lobe's matrix, and of cosines.
 Values spread_columns(const Spread& lobe, double width) {
   constexpr int kDirections = axes::kSpread;
-  const auto& points = SpreadPoints<double>::get();
+  const auto& points = SpreadPoints<double, kDirections>::get();
   Values columns(CoatedTables::kColumns * kDirections);
   std::vector<Values> polynomial(kDirections, Values(kNodes));
   for (int i = 0; i < kNodes; ++i) {
@@ -112,7 +112,7 @@ void write_facets(const TableFiles& to, const std::string& name, const std::vect
   for (std::size_t k = 0; k < under.size(); ++k) round.under[k] = under[k].data();
   const StretchedTables stretched = stretched_coats<Distribution>(round);
   write_numbers(to, name + "StretchedCoatTable", stretched.coat);
-  write_numbers(to, name + "StretchedChangeTable", stretched.change);
+  write_numbers(to, name + "StretchedSpreadTable", stretched.spread);
   for (std::size_t k = 0; k < stretched.under.size(); ++k)
     write_numbers(to, name + "StretchedUnderTable" + std::to_string(k), stretched.under[k]);
 }

@@ -10,7 +10,7 @@
 
 #include "materials/coat.h"
 #include "materials/facets.h"
-#include "materials/under_coats.h"
+#include "materials/spread.h"
 
 namespace mms::materials::tables {
 
@@ -82,7 +82,7 @@ struct Cubic {
 
 /// G^2 of materials/coated.h of a lobe that is to reflect the share A along each direction, from g
 /// = A / sqrt(K A), which is nearly right, by powers of what is still wrong (Knight, Ruiz and Ucar
-/// 2014: the symmetric form of Sinkhorn's iteration), two in turn as in materials/under_coats.h.
+/// 2014: the symmetric form of Sinkhorn's iteration), two in turn as in materials/spread.h.
 template <class Lobe>
 Values scaled(const Lobe& lobe, const Values& share) {
   Values g = share, mean;
@@ -102,20 +102,6 @@ Values scaled(const Lobe& lobe, const Values& share) {
   }
   for (double& m : mean) m *= m;
   return mean;
-}
-
-/// (K - 1) (K + 1)^-1 A: what G^2 - A is of first order. The error's eigenvalues fall as above.
-template <class Lobe>
-Values first_order(const Lobe& lobe, const Values& share) {
-  Values half(share.size());  // (K + 1)^-1 A
-  for (int n = 0; n < 16; ++n) {
-    const Values mean = lobe.mean(half);
-    for (std::size_t o = 0; o < half.size(); ++o)
-      half[o] += kScalingPowers<double>[n % 2] * (share[o] - half[o] - mean[o]);
-  }
-  Values above = share;
-  for (std::size_t o = 0; o < above.size(); ++o) above[o] -= 2 * half[o];
-  return above;
 }
 
 /// What CoatedTables hold of that, below a coat and as one.
@@ -154,7 +140,7 @@ struct CoatShares {
 struct StretchedTables {
   std::vector<float> coat;                ///< CoatedTables::coat_stretched
   std::vector<std::vector<float>> under;  ///< CoatedTables::under_stretched
-  std::vector<float> change;              ///< CoatedTables::change_stretched
+  std::vector<float> spread;              ///< CoatedTables::spread_stretched
 };
 /// From the tables of round ones.
 template <template <class> class Distribution>

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <vector>
 
-#include "materials/chebyshev.h"
 #include "materials/fresnel.h"
 #include "materials/tables/coats.h"
 #include "materials/tables/grid.h"
@@ -160,32 +159,49 @@ Values below_coat(const Lobe& lobe, double eta, double held) {
       CoatShares(kNodes, [&](int o) { return lobe.directions().at(o).z; }, eta, {held, 0}).through);
 }
 
-/// What G^2 - A is of first order, where A is 1 at one of the points of axes::kChangePoints and 0
-/// at the others.
+/// CoatedTables::spread_stretched of one lobe.
 template <class Lobe>
-std::vector<Values> changes(const Lobe& lobe) {
-  constexpr int kPoints = axes::kChangePoints;
-  std::vector<Values> of_points;
-  for (const double point : chebyshev_points<kPoints>()) {
-    const auto here = chebyshev_terms<kPoints>(point);
-    Values share(kNodes);
-    for (int o = 0; o < kNodes; ++o) {
-      const auto there = chebyshev_terms<kPoints>(lobe.directions().at(o).z);
-      share[o] =
-          (2 * std::inner_product(here.begin(), here.end(), there.begin(), 0.0) - 1) / kPoints;
+Values spread_columns(const Lobe& lobe, double wide, double narrow) {
+  using Matrix = StretchedMatrix<double>;
+  const CoatedTables none{};
+  const auto seen = [&](Vec3d w) { return CoatedLobe<double>::facets(none, wide, narrow, w); };
+  std::vector<Vec3d> directions;
+  for (const double height : SpreadPoints<double, Matrix::kHeights>::get().place)
+    for (int t = 0; t < Matrix::kTurns; ++t) {
+      const auto along = [](double turn) {
+        return Vec3d{std::sin(turn * kPi<double> / 2), std::cos(turn * kPi<double> / 2), 0};
+      };
+      const auto turn = [&](double at) {
+        return axes::spread_turn(along(at).x, along(at).y, wide / narrow);
+      };
+      const Vec3d to = along(inverse(turn, (t + 0.5) / Matrix::kTurns));
+      const double z = cosine(height, [&](double c, double s) {
+        return axes::spread_direction(c, seen({s * to.x, s * to.y, c}).cosines);
+      });
+      const double s = std::sqrt((1 - z) * (1 + z));
+      directions.push_back({s * to.x, s * to.y, z});
     }
-    of_points.push_back(first_order(lobe, share));
+  std::vector<Values> polynomial(Matrix::kDirections, Values(kNodes));
+  for (int i = 0; i < kNodes; ++i) {
+    const auto weights = Matrix::weights_at(seen(lobe.directions().at(i)));
+    for (int k = 0; k < Matrix::kDirections; ++k) polynomial[k][i] = weights[k];
   }
-  return of_points;
+  Values columns;
+  for (const Values& of : polynomial) {
+    const Values mean = lobe.mean(of);
+    for (const Vec3d& w : directions) columns.push_back(lobe.directions().value(mean, w));
+  }
+  for (const Vec3d& w : directions) columns.push_back(w.z);
+  return columns;
 }
 
-/// Of stretched facets less of round ones, for each index or point, and direction, at all shapes.
+/// Of stretched facets less of round ones, for each index and direction, at all shapes; and their
+/// matrices, of each ring.
 struct Differences {
-  std::vector<Values> coat, under[kUnder], change;
+  std::vector<Values> coat, under[kUnder], spread;
 
   explicit Differences(int shapes)
-      : coat(axes::kStretchedCoatIndex * axes::kStretchedCoatDirection, Values(shapes)),
-        change(axes::kStretchedCoatDirection * axes::kChangePoints, Values(shapes)) {
+      : coat(axes::kStretchedCoatIndex * axes::kStretchedCoatDirection, Values(shapes)) {
     std::fill_n(under, kUnder, coat);
   }
 };
@@ -194,8 +210,7 @@ template <template <class> class Distribution>
 Differences differences(const ShapeFit& shapes, double root, const CoatedTables& round) {
   using namespace axes;
   Differences all(shapes.count());
-  const Lobe<Distribution<double>> round_lobe(root, root);
-  const std::vector<Values> round_changes = changes(round_lobe);
+  all.spread.push_back(spread_columns(Lobe<Distribution<double>>(root, root), root, root));
   for (int first = 0, end = 0; first < shapes.count(); first = end) {
     // All shapes of one ring are the same facets, along other directions.
     const double aspect = shapes.facets(first).wide, wide = root * aspect, narrow = root / aspect;
@@ -222,12 +237,7 @@ Differences differences(const ShapeFit& shapes, double root, const CoatedTables&
             lobe.directions().value(stretched, w) - like(width, coat_direction(w.z));
       });
     };
-    const std::vector<Values> stretched_changes = changes(lobe);
-    for (int k = 0; k < kChangePoints; ++k)
-      for_each_direction([&](int d, int i, Vec3d w) {
-        all.change[d * kChangePoints + k][i] = lobe.directions().value(stretched_changes[k], w) -
-                                               round_lobe.directions().value(round_changes[k], w);
-      });
+    all.spread.push_back(spread_columns(lobe, wide, narrow));
     for (int n = 0; n < kStretchedCoatIndex; ++n) {
       const double eta = index_at(double(n) / (kStretchedCoatIndex - 1));
       fill(all.coat, n, as_coat(lobe, eta, Broadness<double>::facets(root)),
@@ -258,8 +268,9 @@ StretchedTables stretched_coats(const CoatedTables& round) {
   const Grid nothing({kStretchedCoatAlpha, kStretchedCoatIndex, kStretchedCoatDirection, terms},
                      [](const double*) { return 0.0; });
   std::vector<Grid> fitted(1 + kUnder, nothing);
-  Grid change({kStretchedCoatAlpha, kStretchedCoatDirection, kChangePoints * terms},
-              [](const double*) { return 0.0; });
+  static_assert(kSpreadRings == kStretchedCoatDegree / 3 + 2, "round facets, and ShapeFit's rings");
+  constexpr int numbers = CoatedTables::kStretchedColumns * StretchedMatrix<double>::kDirections;
+  Grid spread({kStretchedCoatAlpha, kSpreadRings, numbers});
   parallel(steps, [&](int k) {
     const double place = (k + 1.0) / steps;
     const auto all = differences<Distribution>(shapes, place * place * place, round);
@@ -270,9 +281,13 @@ StretchedTables stretched_coats(const CoatedTables& round) {
     };
     fit(all.coat, fitted[0]);
     for (int b = 0; b < kUnder; ++b) fit(all.under[b], fitted[1 + b]);
-    fit(all.change, change);
+    // Mirrors as the narrowest of all.
+    for (int at = k == 0 ? 0 : k + 1; at <= k + 1; ++at)
+      for (int ring = 0; ring < kSpreadRings; ++ring)
+        std::copy(all.spread[ring].begin(), all.spread[ring].end(),
+                  &spread.values[(at * kSpreadRings + ring) * numbers]);
   });
-  fitted.push_back(change);
+  fitted.push_back(spread);
   std::vector<std::vector<float>> splines;
   for (const Grid& grid : fitted) {
     const Values coefficients = grid.spline(1);

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// \file
+/// Lobes as matrices over few directions, with polynomials between, and G of materials/coated.h of
+/// these. Round lobes are known along as many |cosines|; stretched facets by fewer, at each of some
+/// azimuths of a quarter turn, which they see alike in all four.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/warp.h"
+#include "materials/chebyshev.h"
+#include "materials/coated.h"
+#include "materials/lobe.h"
+
+namespace mms::materials {
+
+/// `N` of Chebyshev's points on [0, 1], both ends among them, where polynomials over
+/// axes::spread_direction are known.
+template <class R, int N>
+struct SpreadPoints {
+  R place[N], weight[N];  ///< the weights are of the barycentric form
+
+  SpreadPoints() {
+    constexpr int last = N - 1;
+    for (int k = 0; k <= last; ++k) {
+      const R s = std::sin(kPi<R> / 2 * R(k) / R(last));
+      place[k] = s * s;
+      weight[k] = R(k % 2 ? -1 : 1) * (k == 0 || k == last ? R(0.5) : R(1));
+    }
+  }
+  static const SpreadPoints& get() {
+    static const SpreadPoints points;
+    return points;
+  }
+
+  /// What a polynomial's values at the points are multiplied with for its value at `x`.
+  std::array<R, N> weights_at(R x) const {
+    std::array<R, N> to;
+    R sum = 0;
+    for (int k = 0; k < N; ++k) {
+      const R d = x - place[k];
+      to[k] = weight[k] / (d == 0 ? R(1e-20) : d);
+      sum += to[k];
+    }
+    for (R& w : to) w /= sum;
+    return to;
+  }
+};
+
+/// A round lobe's matrix, of its width.
+template <class R>
+struct SpreadMatrix {
+  static constexpr int kDirections = axes::kSpread;
+  static constexpr int kCoatSteps = 12;  ///< of `scaled`, where E is to be reflected
+  using Values = std::array<R, kDirections>;
+  std::array<Values, CoatedTables::kColumns> rows{};  ///< as in CoatedTables::spread
+
+  explicit SpreadMatrix(const CoatedLobe<R>& lobe) {
+    constexpr int n0 = CoatedTables::kColumns * kDirections;
+    for (int q = 0; q < 4; ++q) {
+      const float* p = lobe.tables->spread + (lobe.width.first + q) * n0;
+      for (int k = 0; k < CoatedTables::kColumns; ++k)
+        for (int j = 0; j < kDirections; ++j)
+          rows[k][j] += lobe.width.weight[q] * R(p[k * kDirections + j]);
+    }
+  }
+
+  R cosine(int k) const { return limited(rows[kDirections][k], R(0), R(1)); }
+  /// What G counts as at least, over g.
+  R least_mean() const { return 0; }
+
+  /// What values at the directions are multiplied with for that along the direction of `lobe`.
+  static Values weights_at(const CoatedLobe<R>& lobe) {
+    return SpreadPoints<R, kDirections>::get().weights_at(
+        axes::spread_direction(lobe.z, lobe.cosines));
+  }
+
+  /// int K g |cos i| di along the direction of `lobe`, of whose width the matrix is, for `g` of the
+  /// |cosine|.
+  template <class G>
+  R mean_along(const CoatedLobe<R>& lobe, const G& g) const {
+    Values of;
+    for (int k = 0; k < kDirections; ++k) of[k] = g(cosine(k));
+    const Values all = mean(of), weights = weights_at(lobe);
+    R sum = 0;
+    for (int k = 0; k < kDirections; ++k) sum += weights[k] * all[k];
+    return sum;
+  }
+
+  /// int K `of` |cos i| di along the directions.
+  Values mean(const Values& of) const {
+    Values sum{};
+    for (int k = 0; k < kDirections; ++k)
+      for (int j = 0; j < kDirections; ++j) sum[j] += rows[k][j] * of[k];
+    return sum;
+  }
+};
+
+/// That of stretched facets, of both their widths: as large as 200 of the other.
+template <class R>
+class StretchedMatrix {
+ public:
+  static constexpr int kHeights = axes::kStretchedSpread, kTurns = axes::kSpreadTurns;
+  static constexpr int kDirections = kHeights * kTurns;  ///< those of a height are together
+  static constexpr int kCoatSteps = 6;
+  using Values = std::array<R, kDirections>;
+
+  StretchedMatrix() {}  // not zeroed
+
+  /// As those of `lobe`, which takes long; unless it is.
+  void read(const CoatedLobe<R>& lobe) {
+    const auto ring =
+        Stencil<R>::at(axes::ring(lobe.along.wide, lobe.along.narrow), axes::kSpreadRings);
+    if (lobe.tables == tables_ && lobe.along.root == root_ && ring == ring_) return;
+    tables_ = lobe.tables, root_ = lobe.along.root, ring_ = ring, mean_ = lobe.along.mean;
+    constexpr int n1 = CoatedTables::kStretchedColumns * kDirections,
+                  n0 = n1 * coefficients(axes::kSpreadRings);
+    for (int k = 0; k < CoatedTables::kStretchedColumns; ++k) {
+      Values row{};
+      add_terms(row.data(), kDirections, tables_->spread_stretched + k * kDirections, R(1), root_,
+                n0, ring_, n1);
+      std::copy(row.begin(), row.end(), rows_ + k * kDirections);
+    }
+  }
+
+  R cosine(int k) const { return limited(R(rows_[kDirections * kDirections + k]), R(0), R(1)); }
+  /// Less than G is along the surface, where broad lobes lead most away; of narrow ones, of which
+  /// few directions know, polynomials may swing below 0.
+  R least_mean() const { return std::min(R(0.002) / mean_, R(0.1)); }
+
+  static Values weights_at(const CoatedLobe<R>& lobe) {
+    const auto heights =
+        SpreadPoints<R, kHeights>::get().weights_at(axes::spread_direction(lobe.z, lobe.cosines));
+    const FacetsAlong<R>& f = lobe.along;
+    const R turn = axes::spread_turn(f.x, f.y, f.wide / f.narrow);
+    const auto turns = chebyshev_weights<kTurns>((1 + std::cos(kPi<R> * turn)) / 2);
+    Values to;
+    for (int h = 0; h < kHeights; ++h)
+      for (int t = 0; t < kTurns; ++t) to[h * kTurns + t] = heights[h] * turns[t];
+    return to;
+  }
+
+  Values mean(const Values& of) const {
+    WeightedRows<R, kDirections> rows;
+    for (int k = 0; k < kDirections; ++k) rows.add(k * kDirections, of[k]);
+    Values sum{};
+    add_rows(sum.data(), kDirections, rows_, rows);
+    return sum;
+  }
+
+ private:
+  const CoatedTables* tables_ = nullptr;
+  Stencil<R> root_, ring_;
+  R mean_;                                                     ///< of both widths
+  float rows_[CoatedTables::kStretchedColumns * kDirections];  ///< as CoatedTables has them
+};
+
+/// By a power of what is still wrong, an eigenvalue l of K in [0, 1] leaves 1 - power (1 + l) of
+/// its error. Two powers in turn are the best of two (Chebyshev), a seventeenth at most.
+template <class R>
+inline constexpr R kScalingPowers[] = {1 / (R(1.5) + std::numbers::sqrt2_v<R> / 4),
+                                       1 / (R(1.5) - std::numbers::sqrt2_v<R> / 4)};
+
+/// G of materials/coated.h for a lobe that is to reflect `share`, by powers of what is still wrong
+/// (Knight, Ruiz and Ucar 2014), of first order. Four steps leave less than 1e-4 where T is to be
+/// reflected, Matrix::kCoatSteps of E.
+template <class Matrix, class Values>
+inline Values scaled(const Matrix& matrix, const Values& share, int steps) {
+  using R = typename Values::value_type;
+  Values g = share, mean;
+  const int n = int(g.size());
+  const R least = matrix.least_mean();
+  const auto spread = [&] {
+    mean = matrix.mean(g);
+    for (int k = 0; k < n; ++k) mean[k] = std::max({mean[k], least * g[k], R(1e-6)});
+  };
+  spread();
+  for (int k = 0; k < n; ++k) g[k] = share[k] / std::sqrt(mean[k]);
+  spread();
+  for (int step = 0; step < steps; ++step) {
+    for (int k = 0; k < n; ++k)  // along the surface nothing may pass
+      if (g[k] > 0)
+        g[k] *=
+            std::max(1 + kScalingPowers<R>[step % 2] * (share[k] / (g[k] * mean[k]) - 1), R(0.2));
+    spread();
+  }
+  return mean;
+}
+
+}  // namespace mms::materials
