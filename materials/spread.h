@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
+#include "base/spectrum.h"
 #include "base/warp.h"
 #include "materials/chebyshev.h"
 #include "materials/coated.h"
@@ -85,18 +87,20 @@ struct SpreadMatrix {
   R mean_along(const CoatedLobe<R>& lobe, const G& g) const {
     Values of;
     for (int k = 0; k < kDirections; ++k) of[k] = g(cosine(k));
-    const Values all = mean(of), weights = weights_at(lobe);
+    Values all;
+    means(&of, 1, &all);
+    const Values weights = weights_at(lobe);
     R sum = 0;
     for (int k = 0; k < kDirections; ++k) sum += weights[k] * all[k];
     return sum;
   }
 
-  /// int K `of` |cos i| di along the directions.
-  Values mean(const Values& of) const {
-    Values sum{};
-    for (int k = 0; k < kDirections; ++k)
-      for (int j = 0; j < kDirections; ++j) sum[j] += rows[k][j] * of[k];
-    return sum;
+  /// int K `of` |cos i| di along the directions, for `count` functions.
+  void means(const Values* of, int count, Values* to) const {
+    std::fill_n(to, count, Values{});
+    for (int n = 0; n < count; ++n)
+      for (int k = 0; k < kDirections; ++k)
+        for (int j = 0; j < kDirections; ++j) to[n][j] += rows[k][j] * of[n][k];
   }
 };
 
@@ -106,7 +110,7 @@ class StretchedMatrix {
  public:
   static constexpr int kHeights = axes::kStretchedSpread, kTurns = axes::kSpreadTurns;
   static constexpr int kDirections = kHeights * kTurns;  ///< those of a height are together
-  static constexpr int kCoatSteps = 6;
+  static constexpr int kCoatSteps = 4;
   using Values = std::array<R, kDirections>;
 
   StretchedMatrix() {}  // not zeroed
@@ -144,12 +148,17 @@ class StretchedMatrix {
     return to;
   }
 
-  Values mean(const Values& of) const {
-    WeightedRows<R, kDirections> rows;
-    for (int k = 0; k < kDirections; ++k) rows.add(k * kDirections, of[k]);
-    Values sum{};
-    add_rows(sum.data(), kDirections, rows_, rows);
-    return sum;
+  /// int K `of` |cos i| di along the directions, for `count` functions: of a few rows at a time,
+  /// which stay in the cache, for all of them.
+  void means(const Values* of, int count, Values* to) const {
+    constexpr int kRows = 32;
+    std::fill_n(to, count, Values{});
+    for (int first = 0; first < kDirections; first += kRows)
+      for (int n = 0; n < count; ++n) {
+        WeightedRows<R, kRows> rows;
+        for (int k = first; k < first + kRows; ++k) rows.add(k * kDirections, of[n][k]);
+        add_rows(to[n].data(), kDirections, rows_, rows);
+      }
   }
 
  private:
@@ -165,30 +174,37 @@ template <class R>
 inline constexpr R kScalingPowers[] = {1 / (R(1.5) + std::numbers::sqrt2_v<R> / 4),
                                        1 / (R(1.5) - std::numbers::sqrt2_v<R> / 4)};
 
-/// G of materials/coated.h for a lobe that is to reflect `share`, by powers of what is still wrong
-/// (Knight, Ruiz and Ucar 2014), of first order. Four steps leave less than 1e-4 where T is to be
-/// reflected, Matrix::kCoatSteps of E.
-template <class Matrix, class Values>
-inline Values scaled(const Matrix& matrix, const Values& share, int steps) {
+/// G of materials/coated.h for a lobe that is to reflect each of `count` shares, by powers of what
+/// is still wrong (Knight, Ruiz and Ucar 2014), of first order. Four steps leave less than 1e-4
+/// where T is to be reflected, Matrix::kCoatSteps of E.
+template <class Matrix, class Values = typename Matrix::Values>
+inline void scaled(const Matrix& matrix, const Values* shares, int count, int steps,
+                   Values* means) {
   using R = typename Values::value_type;
-  Values g = share, mean;
-  const int n = int(g.size());
+  Values all[kWavelengths];
+  std::copy_n(shares, count, all);
   const R least = matrix.least_mean();
+  // Of each g, its mean and the share; along the surface nothing may pass.
+  const auto for_each = [&](const auto& visit) {
+    for (int n = 0; n < count; ++n)
+      for (std::size_t k = 0; k < all[n].size(); ++k)
+        if (shares[n][k] > 0) visit(all[n][k], means[n][k], shares[n][k]);
+  };
   const auto spread = [&] {
-    mean = matrix.mean(g);
-    for (int k = 0; k < n; ++k) mean[k] = std::max({mean[k], least * g[k], R(1e-6)});
+    matrix.means(all, count, means);
+    for (int n = 0; n < count; ++n)
+      for (std::size_t k = 0; k < all[n].size(); ++k)
+        means[n][k] = std::max({means[n][k], least * all[n][k], R(1e-6)});
   };
   spread();
-  for (int k = 0; k < n; ++k) g[k] = share[k] / std::sqrt(mean[k]);
+  for_each([](R& g, R mean, R share) { g = share / std::sqrt(mean); });
   spread();
   for (int step = 0; step < steps; ++step) {
-    for (int k = 0; k < n; ++k)  // along the surface nothing may pass
-      if (g[k] > 0)
-        g[k] *=
-            std::max(1 + kScalingPowers<R>[step % 2] * (share[k] / (g[k] * mean[k]) - 1), R(0.2));
+    for_each([&](R& g, R mean, R share) {
+      g *= std::max(1 + kScalingPowers<R>[step % 2] * (share / (g * mean) - 1), R(0.2));
+    });
     spread();
   }
-  return mean;
 }
 
 }  // namespace mms::materials

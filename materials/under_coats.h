@@ -219,14 +219,21 @@ class UnderCoats {
         if (reflects_) reflected[n][k] = along.reflected(wavelength[n]);
       }
     }
-    for (int n = 0; n < count_; ++n) {
-      const Values below = scaled(matrix, through[n], 4);
+    Values below[kWavelengths];
+    if (coats.count > 0)
+      scaled(matrix, through, count_, 4, below);
+    else  // all is let through
+      std::copy_n(through, count_, below);
+    for (int n = 0; n < count_; ++n)
       for (int k = 0; k < kDirections; ++k)
-        solved.above[n][k] = below[k] * below[k] - through[n][k];
-      if (!reflects_) continue;
-      Values all;
-      for (int k = 0; k < kDirections; ++k) all[k] = through[n][k] * reflected[n][k];
-      const Values part = scaled(matrix, all, Matrix::kCoatSteps);
+        solved.above[n][k] = below[n][k] * below[n][k] - through[n][k];
+    if (!reflects_) return;
+    Values shares[kWavelengths], parts[kWavelengths];
+    for (int n = 0; n < count_; ++n)
+      for (int k = 0; k < kDirections; ++k) shares[n][k] = through[n][k] * reflected[n][k];
+    scaled(matrix, shares, count_, Matrix::kCoatSteps, parts);
+    for (int n = 0; n < count_; ++n) {
+      const Values &all = shares[n], &part = parts[n];
       filmed_[n] = coats.part->films[wavelength[n]].there();
       least_[n] = 1;
       for (int k = 0; k < kDirections; ++k)
@@ -234,7 +241,7 @@ class UnderCoats {
       for (int k = 0; k < kDirections; ++k)
         solved.rest[n][k] = filmed_[n]
                                 ? part[k] * part[k] - all[k]
-                                : 2 * std::log(part[k] / below[k]) - std::log(reflected[n][k]);
+                                : 2 * std::log(part[k] / below[n][k]) - std::log(reflected[n][k]);
     }
   }
 

@@ -42,7 +42,9 @@ double mean_along(const materials::StretchedMatrix<double>& matrix, const Coated
   using Matrix = materials::StretchedMatrix<double>;
   Matrix::Values of;
   for (int k = 0; k < Matrix::kDirections; ++k) of[k] = of_cosine(matrix.cosine(k));
-  const auto all = matrix.mean(of), weights = Matrix::weights_at(lobe);
+  Matrix::Values all;
+  matrix.means(&of, 1, &all);
+  const auto weights = Matrix::weights_at(lobe);
   double sum = 0;
   for (int k = 0; k < Matrix::kDirections; ++k) sum += weights[k] * all[k];
   return sum;
