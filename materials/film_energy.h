@@ -39,7 +39,7 @@ namespace axes {
 inline constexpr int kFilmTerms = 12;
 inline constexpr int kFilmAlpha = 18, kFilmIndex = 16, kFilmDirection[] = {36, 64};
 inline constexpr int kFilmMeanAlpha = 24, kFilmMeanAspect = 6;
-inline constexpr BentGrid kFilmBent[] = {{12, 10, 20, 11}, {12, 22, 40, 11}};
+inline constexpr BentGrid kFilmBent[] = {{16, 10, 20, 16}, {16, 28, 40, 16}};
 
 /// Of indices from 1.0002 to 4, or their inverses. Stretched facets have the axes of their bare
 /// losses (bent_index, bent_direction).

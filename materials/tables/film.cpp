@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/film_energy.h and writes them as C++ to the named file: run by
-// the build, in about a minute of one core.
+// the build, in about four minutes of one core.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
