@@ -34,6 +34,7 @@
 #include <array>
 #include <bitset>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <variant>
 

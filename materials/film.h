@@ -5,11 +5,10 @@
 /// A film (materials/thin_film.h) over metal (`film_conductor`) or glass (`film_dielectric`), which
 /// both may be rough: facets are larger than the film is thick, and each has its colours. What
 /// light between facets of metal reflects is taken as for a bare one. Rough glass keeps its energy
-/// within 1e-3 at any anisotropy (materials/film_energy.h), but that one in 700 random settings of
-/// films of 800 nm to 5 um is up to 3.6e-3 off. More than two fringes, and those of films of more
-/// than three waves of where the index is 1, fade to the mean of films of all thicknesses: no few
-/// numbers say what many facets lose under these, and films of that thickness, which is not even to
-/// a wave, look so.
+/// within 1e-3 at any anisotropy (materials/film_energy.h). More than one and a half fringes, and
+/// those of films of more than two waves of where the index is 1, fade to the mean of films of all
+/// thicknesses: no few numbers say what many facets lose under these, and films of that thickness,
+/// which is not even to a wave, look so.
 
 #include <algorithm>
 #include <array>
@@ -68,7 +67,7 @@ struct FilmFace {
     const R* wavelength = index + kWavelengths + 1;
     for (int j = 0; j < kWavelengths; ++j) {
       films[j] = {index[j], index[kWavelengths], wavelength[j]};
-      thin &= ior[j] >= 1 && beyond(kThinFilm, films[j]) <= 0;
+      thin &= ior[j] >= 1 && beyond_thin(films[j]) <= 0;
     }
   }
 

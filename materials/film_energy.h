@@ -111,25 +111,25 @@ struct FilmedLoss {
   }
 };
 
-/// The terms by which a film's q is known, the points that they are found from, and up to how many
-/// fringes, and waves of where the index is 1, that is within 5e-4 of what facets lose: the more of
-/// these, the sharper films of high indices are towards grazing.
+/// The terms by which a film's q is known, and the points that they are found from.
 struct FilmOrder {
   int terms, points;
-  double fringes, waves;
 };
-inline constexpr FilmOrder kThinFilm{8, 10, 1.5, 2}, kThickFilm{axes::kFilmTerms, 14, 2, 3};
+/// Those of films that do not fade, and of others.
+inline constexpr FilmOrder kThinFilm{8, 10}, kThickFilm{axes::kFilmTerms, 14};
 
-/// How many more fringes or waves a film, seen from the lower index, has than `order` knows.
+/// How many more fringes, or waves of where the index is 1, a film has, seen from the lower index,
+/// than its few terms know within 5e-4 of what facets lose: the more of these, the sharper films of
+/// high indices are towards grazing.
 template <class R>
-inline R beyond(const FilmOrder& order, const Film<R>& film) {
-  return std::max(film.fringes - R(order.fringes), film.waves() - R(order.waves));
+inline R beyond_thin(const Film<R>& film) {
+  return std::max(film.fringes - R(1.5), film.waves() - 2);
 }
 
 /// How much of its fringes a film on rough glass shows, seen from the lower index.
 template <class R>
 inline R film_contrast(const Film<R>& film) {
-  return film.ior < 1 ? R(1) : faded(beyond(kThickFilm, film));
+  return film.ior < 1 ? R(1) : faded(beyond_thin(film));
 }
 
 /// Films between two indices at Chebyshev's points of the cosine at a facet.

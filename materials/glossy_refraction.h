@@ -108,14 +108,14 @@ struct GlossyRefraction {
     if (!beyond(z, eta)) return 0;
     const R most = coats.law[j].most, y = std::min(z * z / k, R(1));
     return coats.split(j, z).transmitted *
-           matrix.mean_along(lobe.coated({std::sqrt(1 - y), 0, std::sqrt(y)}), [&](R x) {
+           mean_along(matrix, lobe.coated({std::sqrt(1 - y), 0, std::sqrt(y)}), [&](R x) {
              return std::max(1 - coats.split(j, std::sqrt(k) * x).transmitted / most, R(0));
            });
   }
   template <class Coats>
   R sent_inside(R z, int j, const SpreadMatrix<R>& matrix, const Coats& coats) const {
     const R eta = relative_eta(numbers[j], Vec3<R>{0, 0, 1});
-    return matrix.mean_along(lobe.coated({std::sqrt((1 - z) * (1 + z)), 0, z}), [&](R c) {
+    return mean_along(matrix, lobe.coated({std::sqrt((1 - z) * (1 + z)), 0, z}), [&](R c) {
       const R outside2 = 1 - eta * eta * (1 - c) * (1 + c);
       return coats.split(j, std::sqrt(std::max(outside2, R(0)))).reflected;
     });

@@ -81,20 +81,6 @@ struct SpreadMatrix {
         axes::spread_direction(lobe.z, lobe.cosines));
   }
 
-  /// int K g |cos i| di along the direction of `lobe`, of whose width the matrix is, for `g` of the
-  /// |cosine|.
-  template <class G>
-  R mean_along(const CoatedLobe<R>& lobe, const G& g) const {
-    Values of;
-    for (int k = 0; k < kDirections; ++k) of[k] = g(cosine(k));
-    Values all;
-    means(&of, 1, &all);
-    const Values weights = weights_at(lobe);
-    R sum = 0;
-    for (int k = 0; k < kDirections; ++k) sum += weights[k] * all[k];
-    return sum;
-  }
-
   /// int K `of` |cos i| di along the directions, for `count` functions.
   void means(const Values* of, int count, Values* to) const {
     std::fill_n(to, count, Values{});
@@ -167,6 +153,19 @@ class StretchedMatrix {
   R mean_;                                                     ///< of both widths
   float rows_[CoatedTables::kStretchedColumns * kDirections];  ///< as CoatedTables has them
 };
+
+/// int K g |cos i| di along the direction of `lobe`, of whose widths `matrix` is, for `g` of the
+/// |cosine|.
+template <class Matrix, class R, class G>
+inline R mean_along(const Matrix& matrix, const CoatedLobe<R>& lobe, const G& g) {
+  typename Matrix::Values of, all;
+  for (int k = 0; k < Matrix::kDirections; ++k) of[k] = g(matrix.cosine(k));
+  matrix.means(&of, 1, &all);
+  const auto weights = Matrix::weights_at(lobe);
+  R sum = 0;
+  for (int k = 0; k < Matrix::kDirections; ++k) sum += weights[k] * all[k];
+  return sum;
+}
 
 /// By a power of what is still wrong, an eigenvalue l of K in [0, 1] leaves 1 - power (1 + l) of
 /// its error. Two powers in turn are the best of two (Chebyshev), a seventeenth at most.

@@ -147,13 +147,13 @@ void check_losses(const std::string& name) {
   }
 }
 
-/// What a facet of rough glass reflects of light at the cosine `c` under a film: of more than two
-/// fringes, or three waves, some part is the mean over films of all thicknesses, here over a turn
-/// of the phase.
+/// What a facet of rough glass reflects of light at the cosine `c` under a film: of more than one
+/// and a half fringes, or two waves, some part is the mean over films of all thicknesses, here over
+/// a turn of the phase.
 double filmed_reflectance(const materials::Film<double>& film, double c, double near, double far) {
   const double sharp = film.split(c, near, far).reflected;
   const materials::Film<double> seen = film.in(std::min(near, far));
-  const double more = std::max(seen.fringes - 2, seen.waves() - 3);
+  const double more = std::max(seen.fringes - 1.5, seen.waves() - 2);
   if (more <= 0) return sharp;
   constexpr int kPhases = 32;
   double mean = 0;

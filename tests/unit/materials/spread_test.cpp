@@ -36,20 +36,6 @@ struct Stretched {
   }
 };
 
-/// By the matrix, along the lobe's direction.
-double mean_along(const materials::StretchedMatrix<double>& matrix, const CoatedLobe<double>& lobe,
-                  const auto& of_cosine) {
-  using Matrix = materials::StretchedMatrix<double>;
-  Matrix::Values of;
-  for (int k = 0; k < Matrix::kDirections; ++k) of[k] = of_cosine(matrix.cosine(k));
-  Matrix::Values all;
-  matrix.means(&of, 1, &all);
-  const auto weights = Matrix::weights_at(lobe);
-  double sum = 0;
-  for (int k = 0; k < Matrix::kDirections; ++k) sum += weights[k] * all[k];
-  return sum;
-}
-
 }  // namespace
 
 TEST_CASE("stretched lobes spread what is alike along all directions to as much") {
@@ -60,7 +46,7 @@ TEST_CASE("stretched lobes spread what is alike along all directions to as much"
       const Stretched facets(random);
       const auto lobe = facets.lobe(*tables);
       matrix->read(lobe);
-      const double all = mean_along(*matrix, lobe, [](double) { return 1.0; });
+      const double all = materials::mean_along(*matrix, lobe, [](double) { return 1.0; });
       CHECK_MESSAGE(std::abs(all - 1) < 1e-4, facets.ax, " ", facets.ay, ": ", all);
     }
 }
@@ -91,7 +77,7 @@ TEST_CASE("and cosines to what facets that are drawn see of them") {
     const auto alpha = materials::Alpha<double>::from(roughness, anisotropy);
     const auto lobe = CoatedLobe<double>::facets(materials::kGgxCoated, alpha.ax, alpha.ay, wo);
     matrix->read(lobe);
-    const double seen = mean_along(*matrix, lobe, [](double z) { return z; });
+    const double seen = materials::mean_along(*matrix, lobe, [](double z) { return z; });
     CHECK_MESSAGE(std::abs(seen - mean) < 4 * deviation + 5e-4, roughness, " ", anisotropy, ": ",
                   seen - mean, " of deviation ", deviation);
   }
