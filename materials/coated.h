@@ -44,7 +44,8 @@ inline constexpr int kStretchedSpread = 24, kSpreadTurns = 8, kSpreadRings = 7;
 inline constexpr double kHeld[] = {0, 0.2, 0.5, 0.8, 1}, kStretchedHeld[] = {0, 0.3, 0.7, 1};
 /// Of stretched facets; the axis of the width is that of an interface.
 inline constexpr int kStretchedCoatAlpha = 22, kStretchedCoatIndex = 23,
-                     kStretchedCoatDirection = 28, kStretchedCoatDegree = 16;
+                     kStretchedCoatDirection = 28;
+inline constexpr ShapeOrder kStretchedCoatShapes{16};
 inline constexpr double kLeastCoatIndex = 0.1, kMostCoatIndex = 0.9844914;  ///< of 1.0002 and 32
 
 template <class R>
@@ -150,7 +151,7 @@ struct FacetsAlong {
   R difference(const float* const* tables, const R* weights, int count, R eta, R place) const {
     using namespace axes;
     using Basis = ShapeBasis<R>;
-    constexpr int terms = Basis::terms(kStretchedCoatDegree),
+    constexpr int terms = Basis::terms(kStretchedCoatShapes),
                   n1 = terms * coefficients(kStretchedCoatDirection),
                   n0 = n1 * coefficients(kStretchedCoatIndex);
     const auto n = Stencil<R>::at(stretched_coat_index(eta), kStretchedCoatIndex);
@@ -158,7 +159,7 @@ struct FacetsAlong {
     R sums[terms] = {};
     for (int b = 0; b < count; ++b)
       if (weights[b] != 0) add_terms(sums, terms, tables[b], weights[b], root, n0, n, n1, d, terms);
-    const R sum = Basis(shape, kStretchedCoatDegree).sum(sums);
+    const R sum = Basis(shape, kStretchedCoatShapes).sum(sums);
     // Above the axis few directions are let through.
     const auto mean_through = [](R index) { return 1 - fresnel_dielectric_diffuse(index); };
     return eta > 32 ? sum * (mean_through(eta) / mean_through(R(32))) : sum;

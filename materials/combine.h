@@ -62,10 +62,11 @@
 /// (materials/glass_coat.h), and seen from inside nothing else:
 ///   base: T(outside), T T' / M, or 1      M the most that T is: mostly along the normal
 /// so that lossless glass is 1 from both sides: smooth 1e-5 (`dielectric`, `beckmann_dielectric`,
-/// `film_dielectric`, `phong_glass`, `refraction`), round facets of roughness from 0.02 and
-/// stretched ones from 0.1, of anisotropy up to 0.9, 1e-3 for indices between 1.01 and 4
-/// and their inverses under coats of indices from 1.005; seen from the denser side one random
-/// setting of anisotropy 1 in 200 is off by up to 2.5e-3. What changes sides in
+/// `film_dielectric`, `phong_glass`, `refraction`), round facets of roughness from 0.02 1e-3 for
+/// indices between 1.01 and 4 and their inverses under coats of indices from 1.005, stretched ones
+/// from 0.15 for indices from 1.02 under coats from 1.02; seen from the denser side one random
+/// setting of anisotropy 1 in 3000 is off by up to 2.7e-3, and of Beckmann facets one in 500 by up
+/// to 5e-3. What changes sides in
 /// `glossy_refraction` gets g(wo) g(wi) of the directions outside, and where its index is below 1 T
 /// of the one outside; the rest of T is sent back as by a mirror: 1e-4. Rough `phong_glass` of an
 /// index from 1/4 loses what it does without a coat, within 1e-3 (materials/phong_coat.h). Rough

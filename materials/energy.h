@@ -27,9 +27,18 @@ struct FacetTables {
 };
 extern const FacetTables kGgxTables, kBeckmannTables;
 
-/// Nodes of a table of stretched facets of an interface, and the degree of its polynomials.
+/// How high polynomials over shapes of stretched facets go (ShapeBasis): to `around` with the
+/// angle, to the `step`th part of that with the distance.
+struct ShapeOrder {
+  int around = 0, step = 3;
+
+  constexpr int outwards() const { return around / step; }
+};
+
+/// Nodes of a table of stretched facets of an interface, and its polynomials.
 struct BentGrid {
-  int width, index, direction, degree;
+  int width, index, direction;
+  ShapeOrder shapes;
 };
 
 /// The same of facets of a lossless dielectric, reflection and refraction together: [0] where the
@@ -50,8 +59,8 @@ inline constexpr float kGgxLeastMean = 0.1f, kBeckmannLeastMean = 0.003f;
 /// `kink` of both.
 inline constexpr float kGgxKink = 0.6f, kBeckmannKink = 0;
 /// `bent` of both.
-inline constexpr BentGrid kGgxBent[] = {{18, 14, 34, 18}, {20, 40, 46, 24}};
-inline constexpr BentGrid kBeckmannBent[] = {{22, 18, 38, 20}, {30, 44, 54, 24}};
+inline constexpr BentGrid kGgxBent[] = {{18, 14, 34, {18}}, {20, 40, 46, {24, 4}}};
+inline constexpr BentGrid kBeckmannBent[] = {{22, 18, 38, {20}}, {30, 44, 54, {24, 4}}};
 
 /// How directions and widths are laid out over [0, 1] along the axes of the tables.
 namespace axes {
@@ -367,30 +376,30 @@ struct Shape {
 };
 
 /// Polynomials over the disc of shapes, even in v and 0 at its centre: r^m cos(m angle), r and
-/// angle polar coordinates of the disc, times Chebyshev's T_k(2 r^2 - 1), where m + 3 k <=
-/// `degree`: what facets do changes fastest with the angle, next to the rim.
+/// angle polar coordinates of the disc, times Chebyshev's T_k(2 r^2 - 1), where m + step k <=
+/// around: what facets do changes fastest with the angle, next to the rim.
 template <class R>
 struct ShapeBasis {
-  static constexpr int kMostDegree = 24;
-  static constexpr int terms(int degree) {
+  static constexpr int terms(ShapeOrder order) {
     int count = -1;  // all but 1
-    for (int k = 0; 3 * k <= degree; ++k) count += degree - 3 * k + 1;
+    for (int k = 0; k <= order.outwards(); ++k) count += order.around - order.step * k + 1;
     return count;
   }
-  static constexpr int kMost = terms(kMostDegree);
+  static constexpr int kMostAround = 24, kMost = terms({kMostAround});
 
   R value[kMost];
   int count;  ///< of terms
 
-  ShapeBasis(const Shape<R>& shape, int degree) : count(terms(degree)) {
+  ShapeBasis(const Shape<R>& shape, ShapeOrder order) : count(terms(order)) {
     const R r2 = shape.u * shape.u + shape.v * shape.v, x = 2 * r2 - 1;
-    R around[kMostDegree + 1] = {1, shape.u};
-    for (int m = 2; m <= degree; ++m) around[m] = 2 * shape.u * around[m - 1] - r2 * around[m - 2];
+    R around[kMostAround + 1] = {1, shape.u};
+    for (int m = 2; m <= order.around; ++m)
+      around[m] = 2 * shape.u * around[m - 1] - r2 * around[m - 2];
     R outwards = 1, before = x;
     int at = 0;
-    for (int k = 0; 3 * k <= degree; ++k) {
+    for (int k = 0; k <= order.outwards(); ++k) {
       if (k > 0) value[at++] = outwards - R(k % 2 ? -1 : 1);
-      for (int m = 1; m <= degree - 3 * k; ++m) value[at++] = around[m] * outwards;
+      for (int m = 1; m <= order.around - order.step * k; ++m) value[at++] = around[m] * outwards;
       const R next = 2 * x * outwards - before;
       before = outwards, outwards = next;
     }
@@ -496,7 +505,7 @@ struct InterfaceLoss {
   R difference(const StretchedInterface<R>& f, R like, const Stencil<R>& d) const {
     using namespace axes;
     using Basis = ShapeBasis<R>;
-    const Basis basis(f.shape(widening(eta, like)), grid().degree);
+    const Basis basis(f.shape(widening(eta, like)), grid().shapes);
     const auto a = Stencil<R>::at(bent_width(like), grid().width);
     const auto n = Stencil<R>::at(bent_index(eta, R(tables->kink)), grid().index);
     const int n2 = basis.count, n1 = n2 * coefficients(grid().direction),

@@ -21,7 +21,7 @@ namespace mms::materials {
 
 namespace axes {
 inline constexpr GlassGrid kRoundFilmGlass[] = {{18, 14, 36}, {18, 14, 72}};
-inline constexpr GlassGrid kBentFilmGlass[] = {{8, 7, 10, 4}, {8, 9, 14, 4}};
+inline constexpr GlassGrid kBentFilmGlass[] = {{8, 7, 10, {4}}, {8, 9, 14, {4}}};
 inline constexpr int kBentFilmPoints = 5, kBentFilmTerms = kThinFilm.terms;
 inline constexpr int kFurtherAlpha = 18, kFurtherAspect = 5, kFurtherIndex = 14;
 }  // namespace axes

@@ -39,7 +39,7 @@ namespace axes {
 inline constexpr int kFilmTerms = 12;
 inline constexpr int kFilmAlpha = 18, kFilmIndex = 16, kFilmDirection[] = {36, 64};
 inline constexpr int kFilmMeanAlpha = 24, kFilmMeanAspect = 6;
-inline constexpr BentGrid kFilmBent[] = {{16, 10, 20, 16}, {16, 28, 40, 16}};
+inline constexpr BentGrid kFilmBent[] = {{16, 9, 32, {16}}, {16, 28, 40, {16}}};
 
 /// Of indices from 1.0002 to 4, or their inverses. Stretched facets have the axes of their bare
 /// losses (bent_index, bent_direction).
@@ -101,12 +101,12 @@ struct FilmedLoss {
     if (round) return;
     const BentGrid& grid = kFilmBent[falls];
     const R kink = R(loss.tables->kink), bent = bent_direction(place, z, s, alpha, loss.eta, kink);
-    R shapes[ShapeBasis<R>::terms(kFilmBent[1].degree) * kFilmTerms] = {};
-    const int terms = ShapeBasis<R>::terms(grid.degree);
+    R shapes[ShapeBasis<R>::terms(kFilmBent[1].shapes) * kFilmTerms] = {};
+    const int terms = ShapeBasis<R>::terms(grid.shapes);
     add(shapes, terms, tables.stretched[falls], Stencil<R>::at(bent_width(alpha), grid.width),
         Stencil<R>::at(bent_index(loss.eta, kink), grid.index), grid.index,
         Stencil<R>::at(bent, grid.direction), grid.direction);
-    const ShapeBasis<R> basis(f.shape(widening(loss.eta, alpha)), grid.degree);
+    const ShapeBasis<R> basis(f.shape(widening(loss.eta, alpha)), grid.shapes);
     for (int k = 0; k < count; ++k) sums[k] += basis.sum(shapes + k * terms);
   }
 };

@@ -41,13 +41,14 @@
 namespace mms::materials {
 
 namespace axes {
-/// Nodes of a table of glass below coats, and the degree of polynomials over the shapes of
-/// stretched facets. Of two, [0] is of light that meets a higher index, [1] a lower one.
+/// Nodes of a table of glass below coats, and its polynomials over shapes of stretched facets. Of
+/// two, [0] is of light that meets a higher index, [1] a lower one.
 struct GlassGrid {
-  int width, index, direction, degree = 0;
+  int width, index, direction;
+  ShapeOrder shapes{};
 };
 inline constexpr GlassGrid kRoundGlass[] = {{28, 20, 44}, {28, 20, 80}};
-inline constexpr GlassGrid kBentGlass[] = {{12, 9, 15, 12}, {15, 18, 25, 12}};
+inline constexpr GlassGrid kBentGlass[] = {{14, 11, 28, {16, 4}}, {16, 21, 32, {20, 5}}};
 /// The ends of the axis of the index, 1.0002 and 4, and the least width, nearly a mirror's.
 inline constexpr double kLeastGlassIndex = 0.1, kMostGlassIndex = 0.8801117;
 inline constexpr double kLeastGlassAlpha = 0.0464;
@@ -60,6 +61,12 @@ inline R glass_index(R eta) {
 template <class R>
 inline R glass_alpha(R alpha) {
   return (interface_alpha(alpha) - R(kLeastGlassAlpha)) / R(1 - kLeastGlassAlpha);
+}
+/// Places along these and along glass_direction, of stretched facets: finer towards wide ones, high
+/// indices and the normal.
+template <class R>
+inline R bent_glass(R place) {
+  return place > 0 ? place * (1 + std::sqrt(place)) / 2 : R(0);
 }
 
 /// Of a direction from which the index falls, `eta` < 1. With x how much z^2 is above that of the
@@ -159,16 +166,19 @@ inline R glass_factor(bool o_outside, bool i_outside, R o, R i, R most) {
 }
 
 namespace detail {
-/// Adds `terms` numbers of a table for `f` along its direction.
+/// Adds `terms` numbers of a table for `f` along its direction; of one of stretched facets, `bent`.
 template <class R>
 inline void add_glass(R* sums, int terms, const float* table, const axes::GlassGrid& grid,
-                      const StretchedInterface<R>& f, bool inside, R eta) {
+                      const StretchedInterface<R>& f, bool inside, R eta, bool bent) {
   using namespace axes;
   const R alpha = f.like(), s = std::sqrt(f.x * f.x + f.y * f.y);
   const int n1 = terms * coefficients(grid.direction), n0 = n1 * coefficients(grid.index);
-  add_terms(sums, terms, table, R(1), Stencil<R>::at(glass_alpha(alpha), grid.width), n0,
-            Stencil<R>::at(glass_index(eta), grid.index), n1,
-            Stencil<R>::at(glass_direction(inside, f.z, s, alpha, eta), grid.direction), terms);
+  const auto at = [bent](R place, int nodes) {
+    return Stencil<R>::at(bent ? bent_glass(place) : place, nodes);
+  };
+  add_terms(sums, terms, table, R(1), at(glass_alpha(alpha), grid.width), n0,
+            at(glass_index(eta), grid.index), n1,
+            at(glass_direction(inside, f.z, s, alpha, eta), grid.direction), terms);
 }
 }  // namespace detail
 
@@ -179,7 +189,7 @@ template <const auto& kGrids, std::size_t Count, class R>
 inline std::array<R, Count> of_round_glass(const float* table, const StretchedInterface<R>& f,
                                            bool inside, R eta) {
   std::array<R, Count> numbers{};
-  detail::add_glass(numbers.data(), int(Count), table, kGrids[eta < 1], f, inside, eta);
+  detail::add_glass(numbers.data(), int(Count), table, kGrids[eta < 1], f, inside, eta, false);
   return numbers;
 }
 
@@ -189,9 +199,10 @@ inline std::array<R, Count> of_bent_glass(const float* table, const StretchedInt
                                           bool inside, R eta) {
   using Basis = ShapeBasis<R>;
   const axes::GlassGrid& grid = kGrids[eta < 1];
-  const Basis basis(f.shape(axes::widening(eta, f.like())), grid.degree);
-  R sums[Count * Basis::terms(std::max(kGrids[0].degree, kGrids[1].degree))] = {};
-  detail::add_glass(sums, int(Count) * basis.count, table, grid, f, inside, eta);
+  const Basis basis(f.shape(axes::widening(eta, f.like())), grid.shapes);
+  constexpr int most = std::max(Basis::terms(kGrids[0].shapes), Basis::terms(kGrids[1].shapes));
+  R sums[Count * most] = {};
+  detail::add_glass(sums, int(Count) * basis.count, table, grid, f, inside, eta, true);
   std::array<R, Count> numbers;
   for (std::size_t i = 0; i < Count; ++i) numbers[i] = basis.sum(sums + i * basis.count);
   return numbers;

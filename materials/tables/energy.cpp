@@ -80,7 +80,7 @@ std::vector<float> stretched_difference(bool rising, const InterfaceTables& roun
   using namespace axes;
   const BentGrid& nodes = round.bent[!rising];
   const int widths = nodes.width, indices = nodes.index, directions = nodes.direction;
-  const ShapeFit shapes(nodes.degree);
+  const ShapeFit shapes(nodes.shapes);
   const int terms = shapes.terms();
   Grid fitted({widths, indices, directions, terms});
   parallel(widths * indices * directions, [&](int i) {

@@ -89,7 +89,7 @@ Grid stretched_quotients(bool rising, const FilmTables& round) {
   using namespace axes;
   const BentGrid& nodes = kFilmBent[!rising];
   const int widths = nodes.width, indices = nodes.index, directions = nodes.direction;
-  const ShapeFit shapes(nodes.degree);
+  const ShapeFit shapes(nodes.shapes);
   const int terms = shapes.terms();
   Grid grid({widths, indices, directions, terms * kFilmTerms});
   parallel(widths * indices, [&](int i) {

@@ -23,38 +23,14 @@ struct Side {
   }
 };
 
-/// Those of further bounces, as a share of all of them.
-template <int Points, class Facets>
-Moments<Points> further(const Facets& facets, double eta, bool inside) {
-  const auto mean = [&](double index) {
-    return InterfaceLoss<double>{facets.interface(), facets.ax, facets.ay, index}.mean();
-  };
-  const double across = transmitted_share(mean(eta), mean(1 / eta), eta);
-  return further_outside<Points>(facets, inside ? 1 / eta : eta) * (inside ? across : 1 - across);
-}
-
-/// The weights for light along `w`, z > 0.
-template <int Points, class Facets>
-std::array<double, Points> weights(const Facets& facets, double eta, bool inside, Vec3d w,
-                                   const Moments<Points>& further) {
-  Moments<Points> sum =
-      interface_mean(facets, eta, w, eta < 1 ? 14 : 24, [inside](const Way& up, const Way& down) {
-        const Way& out = inside ? down : up;
-        const double leaves = out.share * (1 - out.taken);
-        return leaves > 0 ? terms_at<Points>(out.cosine) * leaves : Moments<Points>();
-      });
-  sum += further * InterfaceLoss<double>{facets.interface(), facets.ax, facets.ay, eta}.at(w);
-  return point_weights(sum.of);
-}
-
 /// What writes those of facets of the given widths.
 template <int Points, template <class> class Distribution>
 auto weights_of(bool inside) {
   return [inside](double ax, double ay, double eta) {
     const Distribution<double> facets{{ax, ay}};
-    const auto further_bounces = further<Points>(facets, eta, inside);
+    const auto further_bounces = further_moments<Points>(facets, eta, inside);
     return [=](Vec3d w, double* to) {
-      const auto all = weights<Points>(facets, eta, inside, w, further_bounces);
+      const auto all = glass_weights<Points>(facets, eta, inside, w, further_bounces);
       std::copy(all.begin(), all.end(), to);
     };
   };

@@ -6,6 +6,7 @@
 /// rendering.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -72,6 +73,31 @@ Moments<Points> further_outside(const Facets& facets, double glass) {
   return sum / sum.of[0];  // t_0 is 1
 }
 
+/// The same of light that meets the index `eta`, of all that further bounces send on.
+template <int Points, class Facets>
+Moments<Points> further_moments(const Facets& facets, double eta, bool inside) {
+  const auto mean = [&](double index) {
+    return InterfaceLoss<double>{facets.interface(), facets.ax, facets.ay, index}.mean();
+  };
+  const double across = transmitted_share(mean(eta), mean(1 / eta), eta);
+  return further_outside<Points>(facets, inside ? 1 / eta : eta) * (inside ? across : 1 - across);
+}
+
+/// The weights of the points for light along `w`, z > 0, from inside the glass or from outside;
+/// `further` as further_moments has them.
+template <int Points, class Facets>
+std::array<double, Points> glass_weights(const Facets& facets, double eta, bool inside, Vec3d w,
+                                         const Moments<Points>& further) {
+  Moments<Points> sum =
+      interface_mean(facets, eta, w, eta < 1 ? 14 : 24, [inside](const Way& up, const Way& down) {
+        const Way& out = inside ? down : up;
+        const double leaves = out.share * (1 - out.taken);
+        return leaves > 0 ? terms_at<Points>(out.cosine) * leaves : Moments<Points>();
+      });
+  sum += further * InterfaceLoss<double>{facets.interface(), facets.ax, facets.ay, eta}.at(w);
+  return point_weights(sum.of);
+}
+
 /// Coefficients along every axis but the last.
 inline std::vector<float> spline_of(const Grid& grid) {
   const std::vector<double> of = grid.spline(1);
@@ -103,12 +129,15 @@ std::vector<float> round_table(const axes::GlassGrid& nodes, bool inside, bool f
 template <class Of, class Alike>
 std::vector<float> bent_table(const axes::GlassGrid& nodes, bool inside, bool falls, int count,
                               const Of& of, const Alike& alike) {
-  const ShapeFit shapes(nodes.degree);
+  const ShapeFit shapes(nodes.shapes);
   const int terms = shapes.terms();
   Grid grid({nodes.width, nodes.index, nodes.direction, count * terms});
+  const auto place = [](int i, int n) {
+    return inverse([](double x) { return axes::bent_glass(x); }, double(i) / (n - 1));
+  };
   parallel(nodes.width * nodes.index, [&](int i) {
-    const double like = glass_alpha_at(double(i / nodes.index) / (nodes.width - 1));
-    const double eta = glass_index_at(double(i % nodes.index) / (nodes.index - 1), falls);
+    const double like = glass_alpha_at(place(i / nodes.index, nodes.width));
+    const double eta = glass_index_at(place(i % nodes.index, nodes.index), falls);
     std::vector<std::vector<double>> values(nodes.direction * count);
     std::vector<double> all(count), round(count);
     for (int shape = 0; shape < shapes.count(); ++shape) {
@@ -116,8 +145,7 @@ std::vector<float> bent_table(const axes::GlassGrid& nodes, bool inside, bool fa
       const double x = seen.x, y = seen.y;
       const auto write = of(seen.wide, seen.narrow, eta);
       for (int d = 0; d < nodes.direction; ++d) {
-        const double z =
-            glass_cosine_at(inside, double(d) / (nodes.direction - 1), like, eta, seen.root());
+        const double z = glass_cosine_at(inside, place(d, nodes.direction), like, eta, seen.root());
         const double s = std::sqrt(1 - z * z);
         seen.x = x * s, seen.y = y * s, seen.z = z;
         write(Vec3d{seen.x, seen.y, z}, all.data());

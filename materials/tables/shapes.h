@@ -19,10 +19,10 @@ namespace mms::materials::tables {
 /// of the values there: least squares.
 class ShapeFit {
  public:
-  explicit ShapeFit(int degree) : terms_(ShapeBasis<double>::terms(degree)) {
-    const int rings = degree / 3 + 1;
+  explicit ShapeFit(ShapeOrder order) : terms_(ShapeBasis<double>::terms(order)) {
+    const int rings = order.outwards() + 1;
     for (int ring = 1; ring <= rings; ++ring) {
-      const int n = 5 + degree * ring / rings;
+      const int n = 5 + order.around * ring / rings;
       const double radius = std::sin(kPi<double> / 2 * ring / rings);
       for (int i = 0; i < n; ++i) {
         const double angle = kPi<double> * i / (n - 1);
@@ -34,7 +34,7 @@ class ShapeFit {
     const int columns = terms_ + count();
     std::vector<std::vector<double>> a(terms_, std::vector<double>(columns));
     for (int s = 0; s < count(); ++s) {
-      const ShapeBasis<double> basis(shapes_[s], degree);
+      const ShapeBasis<double> basis(shapes_[s], order);
       for (int i = 0; i < terms_; ++i) {
         a[i][terms_ + s] = basis.value[i];
         for (int j = 0; j < terms_; ++j) a[i][j] += basis.value[i] * basis.value[j];

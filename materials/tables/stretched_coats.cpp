@@ -262,13 +262,14 @@ Differences differences(const ShapeFit& shapes, double root, const CoatedTables&
 template <template <class> class Distribution>
 StretchedTables stretched_coats(const CoatedTables& round) {
   using namespace axes;
-  const ShapeFit shapes(kStretchedCoatDegree);
+  const ShapeFit shapes(kStretchedCoatShapes);
   const int steps = kStretchedCoatAlpha - 1, terms = shapes.terms();
   // As it is of mirrors: nothing.
   const Grid nothing({kStretchedCoatAlpha, kStretchedCoatIndex, kStretchedCoatDirection, terms},
                      [](const double*) { return 0.0; });
   std::vector<Grid> fitted(1 + kUnder, nothing);
-  static_assert(kSpreadRings == kStretchedCoatDegree / 3 + 2, "round facets, and ShapeFit's rings");
+  static_assert(kSpreadRings == kStretchedCoatShapes.outwards() + 2,
+                "round facets, and ShapeFit's rings");
   constexpr int numbers = CoatedTables::kStretchedColumns * StretchedMatrix<double>::kDirections;
   Grid spread({kStretchedCoatAlpha, kSpreadRings, numbers});
   parallel(steps, [&](int k) {
