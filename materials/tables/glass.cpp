@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/glass_coat.h and writes them as C++ to the named file: run by
-// the build, in three minutes of one core.
+// the build, in five minutes of one core.
 #include <algorithm>
 #include <array>
 #include <cstdio>
