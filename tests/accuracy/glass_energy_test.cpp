@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "materials/coated.h"
+#include "materials/film_coat.h"
 #include "materials/tables/losses.h"
 #include "materials/thin_film.h"
 #include "tests/stats/random.h"
@@ -16,6 +18,16 @@ using namespace mms::test;
 using materials::Beckmann, materials::Bsdf, materials::Ggx;
 
 namespace {
+
+/// Whether a ShapeBasis has room for polynomials of that order.
+constexpr bool fits(materials::ShapeOrder order) {
+  using Basis = materials::ShapeBasis<double>;
+  return order.around <= Basis::kMostAround && Basis::terms(order) <= Basis::kMost;
+}
+constexpr bool fit(const auto& grids) { return fits(grids[0].shapes) && fits(grids[1].shapes); }
+static_assert(fit(materials::kGgxBent) && fit(materials::kBeckmannBent));
+static_assert(fit(materials::axes::kFilmBent) && fit(materials::axes::kBentFilmGlass));
+static_assert(fit(materials::axes::kBentGlass) && fits(materials::axes::kStretchedCoatShapes));
 
 /// All that comes back of light along `wo` from either side of `m`.
 double albedo(const Material& m, const auto& facets, double ior, Vec3d wo) {
