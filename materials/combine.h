@@ -66,14 +66,13 @@
 /// indices between 1.01 and 4 and their inverses under coats of indices from 1.005, stretched ones
 /// from 0.15 for indices from 1.02 under coats from 1.02; seen from the denser side one random
 /// setting of anisotropy 1 in 3000 is off by up to 2.7e-3, and of Beckmann facets one in 500 by up
-/// to 5e-3. What changes sides in
-/// `glossy_refraction` gets g(wo) g(wi) of the directions outside, and where its index is below 1 T
-/// of the one outside; the rest of T is sent back as by a mirror: 1e-4. Rough `phong_glass` of an
-/// index from 1/4 loses what it does without a coat, within 1e-3 (materials/phong_coat.h). Rough
-/// `film_dielectric` is within 1e-3 up to anisotropy 0.9 where its film is up to 600 nm thick
-/// (materials/film_coat.h). All that is so under a film too. Rough glass of an index above 4 or
-/// below 1/4 gets min(T, T') as if both directions were outside, and loses up to a tenth about the
-/// critical angle.
+/// to 5e-3. What changes sides in `glossy_refraction` gets g(wo) g(wi) of the directions outside,
+/// and where its index is below 1 T of the one outside; the rest of T is sent back as by a mirror:
+/// 1e-4. Rough `phong_glass` of an index from 1/4 loses what it does without a coat, within 1e-3
+/// (materials/phong_coat.h). Rough `film_dielectric` is within 1e-3 up to anisotropy 0.9 where its
+/// film is up to 600 nm thick (materials/film_coat.h). All that is so under a film too. Rough glass
+/// of an index above 4 or below 1/4 gets min(T, T') as if both directions were outside, and loses
+/// up to a tenth about the critical angle.
 ///
 /// `layer(top, base, weight)` gives `base` what `top` leaves; with E = weight times the albedo of a
 /// white `top`, or of a scaled one so many times less:
