@@ -131,8 +131,8 @@ struct RoughInterface {
       if (std::exchange(last, eta[j]) != eta[j]) {
         weights = {glass_tables(facets), facets.ax, facets.ay, w, eta[j]};
         if constexpr (Face::kFilmed)
-          film_weights = {StretchedInterface<R>::of(facets.ax, facets.ay,
-                                                    {w.x, w.y, std::min(std::abs(w.z), R(1))}),
+          film_weights = {StretchedFacets<R>::of(facets.ax, facets.ay,
+                                                 {w.x, w.y, std::min(std::abs(w.z), R(1))}),
                           eta[j], !outside};
       }
       R all = weights.sent_back(law);

@@ -22,7 +22,7 @@ namespace mms::materials {
 struct FacetTables {
   const float* loss;            ///< [alpha][direction], isotropic
   const float* mean;            ///< [alpha], isotropic, over `mean_unit`
-  const float* stretched;       ///< [alpha][aspect][azimuth][direction]; alpha: the geometric mean
+  const float* stretched;       ///< [width][direction][term of ShapeBasis], less of round ones
   const float* stretched_mean;  ///< [alpha][aspect]
 };
 extern const FacetTables kGgxTables, kBeckmannTables;
@@ -68,7 +68,8 @@ namespace axes {
 inline constexpr double kMinMeanAlpha = 1e-5;
 
 inline constexpr int kAlpha = 65, kDirection = 65, kMean = 193;
-inline constexpr int kStretchedAlpha = 23, kAspect = 10, kAzimuth = 13, kStretchedDirection = 41;
+inline constexpr int kStretchedWidth = 36, kStretchedDirection = 60;
+inline constexpr ShapeOrder kStretchedShapes{24};
 inline constexpr int kStretchedMean = 65, kMeanAspect = 12;
 /// [1] where the index falls on the far side: the loss has a ridge along the critical angle there.
 inline constexpr int kInterfaceAlpha[] = {23, 35}, kIndex[] = {33, 43};
@@ -167,14 +168,7 @@ inline R towards_grazing(R x) {
   return (x + std::sqrt(x)) / 2;
 }
 
-/// The same for stretched facets, of the tangent that both alphas stretch: one part in four the
-/// angle.
-template <class R>
-inline R stretched_direction(R z, R s, R tangent, R area) {
-  return towards_grazing((3 * direction(z, tangent, 1 / (1 + area)) + angle(z, s)) / 4);
-}
-
-/// The same for an interface: two parts `direction`, one angle.
+/// The same for interfaces, and mirrors that are stretched: two parts `direction`, one angle.
 template <class R>
 inline R dense_direction(R z, R s, R width) {
   return towards_grazing((2 * direction(z, s, width) + angle(z, s)) / 3);
@@ -278,9 +272,10 @@ inline R bent_index(R eta, R kink) {
   return kink == 0 || !(eta < 1) ? x : crowded(x, share, x, there);
 }
 
-/// How much azimuths of stretched facets are widened next to the narrower axis (Shape): losses
-/// change fastest there, but for wide facets that light leaves a high index through.
-inline constexpr double kWidening = 0.15;
+/// How much azimuths of stretched facets are widened next to the narrower axis (Shape), where
+/// losses change fastest: of mirrors, and of interfaces, but for wide facets that light leaves a
+/// high index through.
+inline constexpr double kMirrorWidening = 0.25, kWidening = 0.15;
 template <class R>
 inline R widening(R eta, R like) {
   return eta < 1 ? R(kWidening) - R(0.2) * bent_index(eta) * like : R(kWidening);
@@ -305,52 +300,6 @@ template <class R>
 inline R mean_unit(R alpha2) {
   return alpha2 * std::log1p(1 / alpha2);
 }
-
-/// The loss of one surface. `ax`, `ay` > 0.
-template <class R>
-struct FacetLoss {
-  const FacetTables* tables;
-  R ax, ay;
-
-  bool isotropic() const { return ax == ay; }
-
-  /// l(w) in [0, 1].
-  R at(Vec3<R> w) const {
-    const R z = std::abs(w.z);
-    if (isotropic()) {
-      const R s = std::sqrt(w.x * w.x + w.y * w.y);
-      const auto d = Stencil<R>::at(axes::direction(z, s, axes::width(ax)), axes::kDirection);
-      const auto a = Stencil<R>::at(axes::alpha(ax), axes::kAlpha);
-      return clamp01(interpolate(tables->loss, a, coefficients(axes::kDirection), d));
-    }
-    // Along the wider axis.
-    const R wide = std::max(ax, ay), narrow = std::min(ax, ay), area = wide * narrow;
-    const R x = ax < ay ? w.y : w.x, y = ax < ay ? w.x : w.y;
-    const R s = std::sqrt(x * x + y * y);
-    const R tangent = std::sqrt(wide * wide * x * x + narrow * narrow * y * y);
-    using namespace axes;
-    const auto d = Stencil<R>::at(stretched_direction(z, s, tangent, area), kStretchedDirection);
-    const auto c = Stencil<R>::at(azimuth(std::sqrt(wide) * x, std::sqrt(narrow) * y), kAzimuth);
-    const auto q = Stencil<R>::at(aspect(wide / narrow), kAspect);
-    const auto a = Stencil<R>::at(alpha(std::sqrt(area)), kStretchedAlpha);
-    constexpr int n2 = coefficients(kStretchedDirection), n1 = n2 * coefficients(kAzimuth),
-                  n0 = n1 * coefficients(kAspect);
-    return clamp01(interpolate(tables->stretched, a, n0, q, n1, c, n2, d));
-  }
-
-  /// m in (0, 1).
-  R mean() const {
-    using namespace axes;
-    const R unit = mean_unit(ax * ay);
-    if (isotropic()) return unit * interpolate(tables->mean, Stencil<R>::at(log_alpha(ax), kMean));
-    const auto a = Stencil<R>::at(log_alpha(std::sqrt(ax * ay)), kStretchedMean);
-    const auto q = Stencil<R>::at(aspect(std::max(ax, ay) / std::min(ax, ay)), kMeanAspect);
-    return unit * interpolate(tables->stretched_mean, a, coefficients(kMeanAspect), q);
-  }
-
- private:
-  static R clamp01(R x) { return x > 0 ? std::min(x, R(1)) : R(0); }
-};
 
 /// How stretched facets look along a direction: a point of the unit disc, whose centre is round
 /// facets and whose rim those ten times as wide along one axis as along the other. Half the angle
@@ -412,15 +361,15 @@ struct ShapeBasis {
   }
 };
 
-/// Stretched facets of an interface, as a table lays them out: x is along the wider axis.
+/// Stretched facets as tables lay them out: x is along the wider axis.
 template <class R>
-struct StretchedInterface {
+struct StretchedFacets {
   R wide, narrow, x, y, z;
 
   /// Those `ax` and `ay` wide, along `w`.
-  static StretchedInterface of(R ax, R ay, Vec3<R> w) {
-    return ax < ay ? StretchedInterface{ay, ax, w.y, w.x, w.z}
-                   : StretchedInterface{ax, ay, w.x, w.y, w.z};
+  static StretchedFacets of(R ax, R ay, Vec3<R> w) {
+    return ax < ay ? StretchedFacets{ay, ax, w.y, w.x, w.z}
+                   : StretchedFacets{ax, ay, w.x, w.y, w.z};
   }
   R root() const { return std::sqrt(wide * narrow); }
   /// The width of round facets that are as wide along the direction; at most 1.
@@ -436,6 +385,56 @@ struct StretchedInterface {
     return area / (area * (x * x + y * y) + z * z);
   }
   Shape<R> shape(R widening) const { return Shape<R>::of(wide, narrow, x, y, widening); }
+};
+
+/// The loss of one surface. `ax`, `ay` > 0.
+template <class R>
+struct FacetLoss {
+  const FacetTables* tables;
+  R ax, ay;
+
+  bool isotropic() const { return ax == ay; }
+
+  /// l(w) in [0, 1].
+  R at(Vec3<R> w) const {
+    const R z = std::abs(w.z), s = std::sqrt(w.x * w.x + w.y * w.y);
+    if (isotropic()) return limited(round(ax, z, s));
+    const auto f = StretchedFacets<R>::of(ax, ay, {w.x, w.y, z});
+    const R like = f.like();
+    return limited(round(like, z, s) + f.scale() * difference(f, like, s));
+  }
+  /// Of round facets.
+  R round(R alpha, R z, R s) const {
+    const auto d = Stencil<R>::at(axes::direction(z, s, axes::width(alpha)), axes::kDirection);
+    const auto a = Stencil<R>::at(axes::alpha(alpha), axes::kAlpha);
+    return interpolate(tables->loss, a, coefficients(axes::kDirection), d);
+  }
+
+  /// m in (0, 1).
+  R mean() const {
+    using namespace axes;
+    const R unit = mean_unit(ax * ay);
+    if (isotropic()) return unit * interpolate(tables->mean, Stencil<R>::at(log_alpha(ax), kMean));
+    const auto a = Stencil<R>::at(log_alpha(std::sqrt(ax * ay)), kStretchedMean);
+    const auto q = Stencil<R>::at(aspect(std::max(ax, ay) / std::min(ax, ay)), kMeanAspect);
+    return unit * interpolate(tables->stretched_mean, a, coefficients(kMeanAspect), q);
+  }
+
+ private:
+  static R limited(R l) { return l > 0 ? std::min(l, R(1)) : R(0); }
+
+  /// What stretched facets `f` have above round ones of width `like`, over their scale.
+  R difference(const StretchedFacets<R>& f, R like, R s) const {
+    using namespace axes;
+    using Basis = ShapeBasis<R>;
+    constexpr int terms = Basis::terms(kStretchedShapes),
+                  n0 = terms * coefficients(kStretchedDirection);
+    const auto d = Stencil<R>::at(dense_direction(f.z, s, width(like)), kStretchedDirection);
+    R sums[terms] = {};
+    add_terms(sums, terms, tables->stretched, R(1),
+              Stencil<R>::at(bent_width(like), kStretchedWidth), n0, d, terms);
+    return Basis(f.shape(R(kMirrorWidening)), kStretchedShapes).sum(sums);
+  }
 };
 
 /// The loss of a rough dielectric whose facets are `alpha` wide along both axes, as the table has
@@ -486,14 +485,14 @@ struct InterfaceLoss {
   R at(Vec3<R> w) const {
     const R z = std::abs(w.z), s = std::sqrt(w.x * w.x + w.y * w.y);
     if (ax == ay) return limited(same.at(z, s));
-    const StretchedInterface<R> f = stretched({w.x, w.y, z});
+    const StretchedFacets<R> f = stretched({w.x, w.y, z});
     return at(f, [&](R like, const Stencil<R>& d) { return difference(f, like, d); });
   }
 
   /// The same of stretched facets `f`: `difference(like, d)` is that of l from what it is of round
   /// ones of width `like`, over its scale, at `d` on the axis of directions.
   template <class Difference>
-  R at(const StretchedInterface<R>& f, const Difference& difference) const {
+  R at(const StretchedFacets<R>& f, const Difference& difference) const {
     const R s = std::sqrt(f.x * f.x + f.y * f.y), like = f.like();
     const RoundInterfaceLoss<R> round(*tables, like, eta);
     const R direction = round.direction(f.z, s),
@@ -502,7 +501,7 @@ struct InterfaceLoss {
                    f.scale() * difference(like, Stencil<R>::at(place, grid().direction)));
   }
   /// As the table has it.
-  R difference(const StretchedInterface<R>& f, R like, const Stencil<R>& d) const {
+  R difference(const StretchedFacets<R>& f, R like, const Stencil<R>& d) const {
     using namespace axes;
     using Basis = ShapeBasis<R>;
     const Basis basis(f.shape(widening(eta, like)), grid().shapes);
@@ -529,7 +528,7 @@ struct InterfaceLoss {
     return ax == ay ? mean : mean * std::max(R(0.5), mean_ratio(alpha));  // in truth above 1
   }
 
-  StretchedInterface<R> stretched(Vec3<R> w) const { return StretchedInterface<R>::of(ax, ay, w); }
+  StretchedFacets<R> stretched(Vec3<R> w) const { return StretchedFacets<R>::of(ax, ay, w); }
 
  private:
   /// Less is all but noise in float, and Beckmann's falls as a normal distribution above alpha.

@@ -39,7 +39,7 @@ extern const FilmGlassTables kGgxFilmGlass;
 /// \pre in_glass_tables(eta)
 template <class R>
 inline std::array<R, kFewGlassPoints * axes::kFilmTerms> round_film_weights(
-    const FilmGlassTables& tables, const StretchedInterface<R>& f, bool inside, R eta) {
+    const FilmGlassTables& tables, const StretchedFacets<R>& f, bool inside, R eta) {
   return of_round_glass<axes::kRoundFilmGlass, kFewGlassPoints * axes::kFilmTerms>(
       tables.change[inside][eta < 1], f, inside, eta);
 }
@@ -51,7 +51,7 @@ class FilmGlassWeights {
   FilmGlassWeights() = default;
   /// Along the direction of `f`, from where light meets the index `eta`.
   /// \pre in_glass_tables(eta)
-  FilmGlassWeights(const StretchedInterface<R>& f, R eta, bool inside)
+  FilmGlassWeights(const StretchedFacets<R>& f, R eta, bool inside)
       : inside_(inside),
         stretched_(f.wide != f.narrow),
         round_(round_film_weights(kGgxFilmGlass, f, inside, eta)) {

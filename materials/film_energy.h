@@ -84,7 +84,7 @@ struct FilmedLoss {
     using namespace axes;
     const bool falls = loss.eta < 1;
     const R z = std::abs(w.z), s = std::sqrt(w.x * w.x + w.y * w.y);
-    const StretchedInterface<R> f = loss.stretched({w.x, w.y, z});
+    const StretchedFacets<R> f = loss.stretched({w.x, w.y, z});
     const bool round = loss.ax == loss.ay;
     const R alpha = round ? loss.ax : f.like();
     const R place = round ? loss.same.direction(z, s) : interface_direction(z, s, alpha, loss.eta);

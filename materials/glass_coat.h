@@ -169,7 +169,7 @@ namespace detail {
 /// Adds `terms` numbers of a table for `f` along its direction; of one of stretched facets, `bent`.
 template <class R>
 inline void add_glass(R* sums, int terms, const float* table, const axes::GlassGrid& grid,
-                      const StretchedInterface<R>& f, bool inside, R eta, bool bent) {
+                      const StretchedFacets<R>& f, bool inside, R eta, bool bent) {
   using namespace axes;
   const R alpha = f.like(), s = std::sqrt(f.x * f.x + f.y * f.y);
   const int n1 = terms * coefficients(grid.direction), n0 = n1 * coefficients(grid.index);
@@ -186,7 +186,7 @@ inline void add_glass(R* sums, int terms, const float* table, const axes::GlassG
 /// holds for facets as wide as `f` is along its direction, from which light meets the relative
 /// index `eta`. \pre in_glass_tables(eta)
 template <const auto& kGrids, std::size_t Count, class R>
-inline std::array<R, Count> of_round_glass(const float* table, const StretchedInterface<R>& f,
+inline std::array<R, Count> of_round_glass(const float* table, const StretchedFacets<R>& f,
                                            bool inside, R eta) {
   std::array<R, Count> numbers{};
   detail::add_glass(numbers.data(), int(Count), table, kGrids[eta < 1], f, inside, eta, false);
@@ -195,7 +195,7 @@ inline std::array<R, Count> of_round_glass(const float* table, const StretchedIn
 
 /// The same of `f` itself, [width][index][direction][number][term of ShapeBasis].
 template <const auto& kGrids, std::size_t Count, class R>
-inline std::array<R, Count> of_bent_glass(const float* table, const StretchedInterface<R>& f,
+inline std::array<R, Count> of_bent_glass(const float* table, const StretchedFacets<R>& f,
                                           bool inside, R eta) {
   using Basis = ShapeBasis<R>;
   const axes::GlassGrid& grid = kGrids[eta < 1];
@@ -211,8 +211,7 @@ inline std::array<R, Count> of_bent_glass(const float* table, const StretchedInt
 /// The weights of the points for such round facets.
 template <class R>
 inline std::array<R, kGlassPoints> round_weights(const GlassTables& tables,
-                                                 const StretchedInterface<R>& f, bool inside,
-                                                 R eta) {
+                                                 const StretchedFacets<R>& f, bool inside, R eta) {
   return of_round_glass<axes::kRoundGlass, kGlassPoints>(tables.round[inside][eta < 1], f, inside,
                                                          eta);
 }
@@ -229,7 +228,7 @@ struct GlassWeights {
   /// \pre in_glass_tables(eta)
   GlassWeights(const GlassTables& tables, R ax, R ay, Vec3<R> w, R eta)
       : inside(w.z < 0), stretched(ax != ay) {
-    const auto f = StretchedInterface<R>::of(ax, ay, {w.x, w.y, std::min(std::abs(w.z), R(1))});
+    const auto f = StretchedFacets<R>::of(ax, ay, {w.x, w.y, std::min(std::abs(w.z), R(1))});
     round = round_weights(tables, f, inside, eta);
     if (stretched)
       shape = of_bent_glass<axes::kBentGlass, kFewGlassPoints>(tables.bent[inside][eta < 1], f,

@@ -74,34 +74,42 @@ std::array<double, 2> bent_widths(double root, double place) {
   return {root * aspect, root / aspect};
 }
 
-/// What stretched facets lose other than the round ones of the tables, over its scale.
+/// What stretched facets, as wide as round ones of `like` along a direction of |cosine| `c`, lose
+/// above these, over their scale: polynomials of `value(facets, sine)` at all shapes.
+template <class Value>
+void fit_shapes(const ShapeFit& shapes, double like, double c, double widening, const Value& value,
+                double* to) {
+  std::vector<double> values;
+  for (int shape = 0; shape < shapes.count(); ++shape) {
+    auto seen = shapes.facets_like(shape, like, widening);
+    const double z = std::max(c, kLeast * seen.root()), s = std::sqrt(1 - z * z);
+    seen.x *= s, seen.y *= s, seen.z = z;
+    values.push_back(value(seen, s) / seen.scale());
+  }
+  for (int t = 0; t < shapes.terms(); ++t) to[t] = shapes.term(t, values.data());
+}
+
 template <template <class> class Distribution>
 std::vector<float> stretched_difference(bool rising, const InterfaceTables& round) {
   using namespace axes;
   const BentGrid& nodes = round.bent[!rising];
   const int widths = nodes.width, indices = nodes.index, directions = nodes.direction;
   const ShapeFit shapes(nodes.shapes);
-  const int terms = shapes.terms();
-  Grid fitted({widths, indices, directions, terms});
+  Grid fitted({widths, indices, directions, shapes.terms()});
   parallel(widths * indices * directions, [&](int i) {
     const double x[] = {double(i / (indices * directions)) / (widths - 1),
                         double(i / directions % indices) / (indices - 1),
                         double(i % directions) / (directions - 1)};
     const double like = bent_width_at(x[0]), eta = bent_index_at(x[1], rising, round.kink);
-    const double c = bent_cosine_at(x[2], like, eta, round.kink);
-    std::vector<double> values;
-    for (int shape = 0; shape < shapes.count(); ++shape) {
-      auto seen = shapes.facets_like(shape, like, widening(eta, like));
-      const double z = std::max(c, kLeast * seen.root()), s = std::sqrt(1 - z * z);
-      seen.x *= s, seen.y *= s, seen.z = z;
-      const RoundInterfaceLoss<double> loss(round, like, eta);
-      const Distribution<double> facets{{seen.wide, seen.narrow}};
-      values.push_back(
-          (interface_loss(facets, eta, {seen.x, seen.y, z}, slopes_of(facets).kPoints) -
-           loss.at(z, s)) /
-          seen.scale());
-    }
-    for (int t = 0; t < terms; ++t) fitted.values[i * terms + t] = shapes.term(t, values.data());
+    const RoundInterfaceLoss<double> loss(round, like, eta);
+    fit_shapes(
+        shapes, like, bent_cosine_at(x[2], like, eta, round.kink), widening(eta, like),
+        [&](const StretchedFacets<double>& f, double s) {
+          const Distribution<double> facets{{f.wide, f.narrow}};
+          return interface_loss(facets, eta, {f.x, f.y, f.z}, slopes_of(facets).kPoints) -
+                 loss.at(f.z, s);
+        },
+        &fitted.values[i * shapes.terms()]);
   });
   const std::vector<double> spline = fitted.spline(1);
   return {spline.begin(), spline.end()};
@@ -137,27 +145,39 @@ void write_interface(const TableFiles& to, const std::string& name, const RoundI
   }
 }
 
+/// FacetTables::stretched.
+template <template <class> class Distribution>
+std::vector<float> stretched_mirrors(const FacetTables& round) {
+  using namespace axes;
+  const ShapeFit shapes(kStretchedShapes);
+  Grid fitted({kStretchedWidth, kStretchedDirection, shapes.terms()});
+  parallel(kStretchedWidth * kStretchedDirection, [&](int i) {
+    const double like = bent_width_at(double(i / kStretchedDirection) / (kStretchedWidth - 1));
+    const double place = double(i % kStretchedDirection) / (kStretchedDirection - 1);
+    const double c = cosine(std::min(place, 1 - kLeast),
+                            [&](double z, double s) { return dense_direction(z, s, width(like)); });
+    const FacetLoss<double> same{&round, like, like};
+    fit_shapes(
+        shapes, like, c, kMirrorWidening,
+        [&](const StretchedFacets<double>& f, double s) {
+          return loss(Distribution<double>{{f.wide, f.narrow}}, {f.x, f.y, f.z}, 44) -
+                 same.round(like, f.z, s);
+        },
+        &fitted.values[i * shapes.terms()]);
+  });
+  const std::vector<double> spline = fitted.spline(1);
+  return {spline.begin(), spline.end()};
+}
+
 template <template <class> class Distribution>
 void write_facets(const TableFiles& to, const std::string& name) {
   using namespace axes;
   const std::vector<float> round = round_losses<Distribution>();
   write_numbers(to, name + "Loss", round);
-  const auto stretched = write(
-      to, name + "Stretched",
-      Grid({kStretchedAlpha, kAspect, kAzimuth, kStretchedDirection}, [](const double* x) {
-        const double alpha = std::max(x[0] * x[0], 1e-5);
-        const double wide = alpha * std::pow(10, x[1] / 2), narrow = alpha * alpha / wide;
-        const Vec3d w = normalize(Vec3d{std::sin(x[2] * kPi<double> / 2) / std::sqrt(wide),
-                                        std::cos(x[2] * kPi<double> / 2) / std::sqrt(narrow), 0});
-        const double stretch = std::hypot(wide * w.x, narrow * w.y);
-        const auto axis = [&](double c, double s) {
-          return stretched_direction(c, s, s * stretch, alpha * alpha);
-        };
-        const double z = std::max(cosine(std::min(x[3], 1 - kLeast), axis), kLeast * alpha);
-        return loss(Distribution<double>{{wide, narrow}},
-                    w * std::sqrt(1 - z * z) + Vec3d{0, 0, z});
-      }));
-  const FacetTables tables{round.data(), nullptr, stretched.data(), nullptr};
+  FacetTables tables{round.data(), nullptr, nullptr, nullptr};
+  const std::vector<float> stretched = stretched_mirrors<Distribution>(tables);
+  write_numbers(to, name + "Stretched", stretched);
+  tables.stretched = stretched.data();
   write(to, name + "Mean", Grid({kMean}, [&](const double* x) {
           const double a = from_log(x[0]);
           return mean_loss(FacetLoss<double>{&tables, a, a});

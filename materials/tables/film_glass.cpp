@@ -67,7 +67,7 @@ void write_side(const TableFiles& files, bool inside, bool falls) {
   FilmGlassTables tables{};
   tables.change[inside][falls] = round.data();
   constexpr int points = kBentFilmPoints, terms = kBentFilmTerms;
-  const auto alike = [&tables, inside](const StretchedInterface<double>& seen, double eta,
+  const auto alike = [&tables, inside](const StretchedFacets<double>& seen, double eta,
                                        double* to) {
     const auto weights = round_film_weights(tables, seen, inside, eta);
     double few[points * kTerms];

@@ -45,7 +45,7 @@ void write_side(const TableFiles& files, const std::string& name, Side side) {
   GlassTables tables{};
   tables.round[inside][falls] = round.data();
   constexpr int few = kFewGlassPoints;
-  const auto alike = [&tables, inside = side.inside](const StretchedInterface<double>& seen,
+  const auto alike = [&tables, inside = side.inside](const StretchedFacets<double>& seen,
                                                      double eta, double* to) {
     fewer_points<kGlassPoints, few>(round_weights(tables, seen, inside, eta).data(), 1, to);
   };

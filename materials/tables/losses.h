@@ -137,8 +137,8 @@ inline auto along_azimuth(const InterfaceLoss<double>& loss, double x, double y)
 /// The loss of one bounce off lossless mirrors: what other facets take of all that goes up. Of
 /// index 1, at which nothing else is to be cut for.
 template <class Facets>
-double loss(const Facets& facets, Vec3d wo) {
-  return interface_mean(facets, 1, wo, 24, [](const Way& up, const Way&) { return up.taken; });
+double loss(const Facets& facets, Vec3d wo, int points) {
+  return interface_mean(facets, 1, wo, points, [](const Way& up, const Way&) { return up.taken; });
 }
 
 /// FacetTables::loss.
@@ -148,7 +148,7 @@ std::vector<float> round_losses() {
     const double alpha = std::max(x[0] * x[0], 1e-5);
     const auto axis = [&](double z, double s) { return axes::direction(z, s, axes::width(alpha)); };
     const double z = std::max(cosine(std::min(x[1], 1 - kLeast), axis), kLeast * alpha);
-    return loss(Distribution<double>{{alpha, alpha}}, {std::sqrt(1 - z * z), 0, z});
+    return loss(Distribution<double>{{alpha, alpha}}, {std::sqrt(1 - z * z), 0, z}, 24);
   });
   const std::vector<double> spline = grid.spline();
   return {spline.begin(), spline.end()};

@@ -49,7 +49,7 @@ class ShapeFit {
   int terms() const { return terms_; }
 
   /// Facets that look so along the tangent (x, y), with z = 0, whose widths have the product 1.
-  StretchedInterface<double> facets(int i, double widening = axes::kWidening) const {
+  StretchedFacets<double> facets(int i, double widening = axes::kWidening) const {
     const auto [u, v] = shapes_[i];
     const double radius = std::hypot(u, v) * 9 / 11, aspect = (1 + radius) / (1 - radius);
     const double turn = std::atan2(v, u) / 2;  // from the narrower axis, widened
@@ -60,8 +60,8 @@ class ShapeFit {
   }
 
   /// The same, but along the tangent as wide as round ones of the width `like`.
-  StretchedInterface<double> facets_like(int i, double like, double widening) const {
-    StretchedInterface<double> seen = facets(i, widening);
+  StretchedFacets<double> facets_like(int i, double like, double widening) const {
+    StretchedFacets<double> seen = facets(i, widening);
     const double along = std::hypot(seen.wide * seen.x, seen.narrow * seen.y);
     const double root = like / (along + like * (1 - along));  // the inverse of like()
     seen.wide *= root, seen.narrow *= root;
