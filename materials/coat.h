@@ -86,7 +86,7 @@ struct Face {
   R contrast() const { return faded(std::max(film.fringes - 1, film.waves() - 2)); }
   R reflected(R z) const { return FacesAlong<R>(z).split(*this).reflected; }
   /// Rules that see each fringe of a film that is left.
-  int parts() const { return 2 + int(std::min(film.fringes, R(4))); }
+  int parts() const { return 4 + int(std::min(film.fringes, R(4))); }
 };
 
 /// Faces along one direction. Films of the same indices, as at most wavelengths, differ there by
