@@ -37,33 +37,34 @@ namespace mms::materials {
 
 namespace axes {
 /// Widths of `rough_matte`, and directions of a lobe's matrix.
-inline constexpr int kCoatedMatte = 5, kSpread = 32;
+inline constexpr int kCoatedMatte = 5, kSpread = 40;
 /// Directions of one of stretched facets along each azimuth, azimuths, and quotients of widths.
-inline constexpr int kStretchedSpread = 24, kSpreadTurns = 8, kSpreadRings = 7;
+inline constexpr int kStretchedSpread = 28, kSpreadTurns = 9, kSpreadRings = 7;
 /// s of the coats that lobes lie below in the tables.
 inline constexpr double kHeld[] = {0, 0.2, 0.5, 0.8, 1}, kStretchedHeld[] = {0, 0.3, 0.7, 1};
 /// Of stretched facets; the axis of the width is that of an interface.
 inline constexpr int kStretchedCoatAlpha = 22, kStretchedCoatIndex = 23,
-                     kStretchedCoatDirection = 28;
-inline constexpr ShapeOrder kStretchedCoatShapes{16};
+                     kStretchedCoatDirection = 36;
+inline constexpr ShapeOrder kStretchedCoatShapes{20, 4};
 inline constexpr double kLeastCoatIndex = 0.1, kMostCoatIndex = 0.9844914;  ///< of 1.0002 and 32
 
 template <class R>
 inline R stretched_coat_index(R eta) {
   return (index(eta) - R(kLeastCoatIndex)) / R(kMostCoatIndex - kLeastCoatIndex);
 }
-/// As wide as facets of axes::width are lobes of `glossy` of that.
+/// Of a direction of |cosine| `z`: crowded towards grazing, where what coats let through changes,
+/// and as a cosine towards the normal, about which it is even in the angle.
 template <class R>
-inline R gloss_width(R gloss) {
-  return 1 / std::sqrt(1 + gloss);
+inline R spread_direction(R z) {
+  const R a = angle(z, std::sqrt(std::max((1 - z) * (1 + z), R(0)))),
+          x = (3 * std::sqrt(a) + a) / 4;
+  return x * (9 - 4 * x) / 5;
 }
-
-/// Of a direction of |cosine| `z`, for a lobe as wide as cosines of `width`: what a lobe does to
-/// smooth functions changes next to there, and what a coat lets through next to grazing.
+/// Its inverse.
 template <class R>
-inline R spread_direction(R z, R width) {
-  const R d = coat_direction(z), s = std::sqrt(std::max((1 - z) * (1 + z), R(0)));
-  return R(0.35) * d * std::sqrt(d) + R(0.65) * direction(z, s, width);
+inline R spread_cosine(R place) {
+  const R x = (9 - std::sqrt(81 - 80 * place)) / 8, root = (std::sqrt(9 + 16 * x) - 3) / 2;
+  return std::sin(std::numbers::pi_v<R> / 2 * std::min(root * root, R(1)));
 }
 /// Of the widths of stretched facets: what is uniform here are the rings of their shapes that
 /// tables are made from.
@@ -90,15 +91,12 @@ struct CoatedTables {
   const float* under_stretched[std::size(axes::kStretchedHeld)];
   const float* coat_stretched;
   /// [width][column][direction o]: int K l |cos i| di for each of axes::kSpread polynomials l over
-  /// axes::spread_direction, which are 1 at one of the directions and 0 at the others. Then the
-  /// cosines of these directions.
+  /// axes::spread_direction, which are 1 at one of the directions and 0 at the others.
   const float* spread;
-  static constexpr int kColumns = axes::kSpread + 1;
   /// The same of stretched facets, [root of both alphas][ring][column][direction o], the directions
   /// of axes::kStretchedSpread at each of axes::kSpreadTurns azimuths, Chebyshev's points over
   /// axes::spread_turn: polynomials of both.
   const float* spread_stretched;
-  static constexpr int kStretchedColumns = axes::kStretchedSpread * axes::kSpreadTurns + 1;
 };
 extern const CoatedTables kGgxCoated, kBeckmannCoated, kGlossyCoated, kMatteCoated;
 
@@ -189,7 +187,6 @@ template <class R>
 struct CoatedLobe {
   const CoatedTables* tables = nullptr;
   Stencil<R> width{};
-  R cosines = 1;       ///< the width as that of axes::spread_direction
   R as_facets = 0;     ///< alpha of facets that are as wide, as a coat
   R z = 1, place = 1;  ///< the direction's |cosine|, and where it is on axes::coat_direction
   FacetsAlong<R> along{R(1), R(1), {}};
@@ -197,19 +194,18 @@ struct CoatedLobe {
   CoatedLobe() = default;
   static CoatedLobe facets(const CoatedTables& tables, R ax, R ay, Vec3<R> w) {
     const FacetsAlong<R> along(ax, ay, w);
-    CoatedLobe lobe(tables, facet_width(along.like), axes::width(along.like), w);
+    CoatedLobe lobe(tables, facet_width(along.like), w);
     lobe.as_facets = along.mean;
     lobe.along = along;
     return lobe;
   }
   static CoatedLobe glossy(R gloss, Vec3<R> w) {
-    CoatedLobe lobe(kGlossyCoated, Stencil<R>::at(axes::gloss(gloss), axes::kGloss),
-                    axes::gloss_width(gloss), w);
+    CoatedLobe lobe(kGlossyCoated, Stencil<R>::at(axes::gloss(gloss), axes::kGloss), w);
     lobe.as_facets = glossy_as_facets(gloss);
     return lobe;
   }
   static CoatedLobe matte(R roughness, Vec3<R> w) {
-    return {kMatteCoated, Stencil<R>::at(roughness, axes::kCoatedMatte), 1, w};
+    return {kMatteCoated, Stencil<R>::at(roughness, axes::kCoatedMatte), w};
   }
   static Stencil<R> facet_width(R alpha) {
     return Stencil<R>::at(axes::coat_alpha(alpha), axes::kCoatAlpha);
@@ -221,7 +217,7 @@ struct CoatedLobe {
   bool is_like(const CoatedLobe& other) const {
     if (tables != other.tables || stretched() != other.stretched()) return false;
     if (stretched()) return along.wide == other.along.wide && along.narrow == other.along.narrow;
-    return width == other.width && cosines == other.cosines;
+    return width == other.width;
   }
 
   /// G^2 below a coat of relative index `eta` > 1, for T = `through`. What rounding leaves of G^2
@@ -255,10 +251,9 @@ struct CoatedLobe {
   }
 
  private:
-  CoatedLobe(const CoatedTables& its_tables, const Stencil<R>& its_width, R its_cosines, Vec3<R> w)
+  CoatedLobe(const CoatedTables& its_tables, const Stencil<R>& its_width, Vec3<R> w)
       : tables(&its_tables),
         width(its_width),
-        cosines(its_cosines),
         z(std::min(std::abs(w.z), R(1))),
         place(axes::coat_direction(z)) {}
 };

@@ -84,7 +84,7 @@ inline constexpr double kLeastBentIndex = 0.1, kMostBentIndex = 0.8801117;
 inline constexpr double kBentIndexPower[] = {0.75, 1.2};
 /// Of a coat and of lobes below one. As many indices keep what the spline rings by next to
 /// infinity, where what is let through changes fast, from those below 4.
-inline constexpr int kCoatAlpha = 37, kGloss = 65, kCoatIndex = 49, kCoatDirection = 49;
+inline constexpr int kCoatAlpha = 37, kGloss = 65, kCoatIndex = 49, kCoatDirection = 61;
 inline constexpr double kLargestGloss = 5e4;
 
 /// The angle of (x, y) from the x axis, of neither below 0, over a right one: within 2e-8
@@ -286,11 +286,17 @@ inline R gloss(R n) {
   return std::log1p(n) / R(std::log1p(kLargestGloss));
 }
 
-/// Of a coat, crowded towards grazing.
+/// The fourth root of the angle from grazing.
 template <class R>
-inline R coat_direction(R z) {
+inline R grazing_direction(R z) {
   z = std::min(z, R(1));
   return std::sqrt(std::sqrt(angle(z, std::sqrt((1 - z) * (1 + z)))));
+}
+/// Of a coat: crowded towards grazing, and as the angle towards the normal.
+template <class R>
+inline R coat_direction(R z) {
+  const R root = grazing_direction(z), root2 = root * root;
+  return (3 * root + root2 * root2) / 4;
 }
 
 }  // namespace axes

@@ -93,9 +93,9 @@ inline R critical_direction(R z, R s, R alpha, R eta) {
 /// index `eta`. From outside, all is reflected beyond the critical angle too, and coats see where.
 template <class R>
 inline R glass_direction(bool inside, R z, R s, R alpha, R eta) {
-  if (!(eta < 1)) return (coat_direction(z) + direction(z, s, width(alpha))) / 2;
+  if (!(eta < 1)) return (grazing_direction(z) + direction(z, s, width(alpha))) / 2;
   const R critical = critical_direction(z, s, alpha, eta);
-  return inside ? critical : (critical + coat_direction(z)) / 2;
+  return inside ? critical : (critical + grazing_direction(z)) / 2;
 }
 }  // namespace axes
 

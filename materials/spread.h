@@ -20,17 +20,18 @@
 
 namespace mms::materials {
 
-/// `N` of Chebyshev's points on [0, 1], both ends among them, where polynomials over
-/// axes::spread_direction are known.
+/// `N` directions at Chebyshev's points of axes::spread_direction, both ends among them, where
+/// polynomials over it are known.
 template <class R, int N>
 struct SpreadPoints {
-  R place[N], weight[N];  ///< the weights are of the barycentric form
+  R place[N], cosine[N], weight[N];  ///< the weights are of the barycentric form
 
   SpreadPoints() {
     constexpr int last = N - 1;
     for (int k = 0; k <= last; ++k) {
       const R s = std::sin(kPi<R> / 2 * R(k) / R(last));
       place[k] = s * s;
+      cosine[k] = limited(axes::spread_cosine(place[k]), R(0), R(1));
       weight[k] = R(k % 2 ? -1 : 1) * (k == 0 || k == last ? R(0.5) : R(1));
     }
   }
@@ -39,8 +40,9 @@ struct SpreadPoints {
     return points;
   }
 
-  /// What a polynomial's values at the points are multiplied with for its value at `x`.
-  std::array<R, N> weights_at(R x) const {
+  /// What a polynomial's values at the points are multiplied with for that along a |cosine| `z`.
+  std::array<R, N> weights_at(R z) const {
+    const R x = axes::spread_direction(z);
     std::array<R, N> to;
     R sum = 0;
     for (int k = 0; k < N; ++k) {
@@ -56,29 +58,27 @@ struct SpreadPoints {
 /// A round lobe's matrix, of its width.
 template <class R>
 struct SpreadMatrix {
-  static constexpr int kDirections = axes::kSpread;
+  static constexpr int kHeights = axes::kSpread, kTurns = 1, kDirections = kHeights;
   static constexpr int kCoatSteps = 12;  ///< of `scaled`, where E is to be reflected
   using Values = std::array<R, kDirections>;
-  std::array<Values, CoatedTables::kColumns> rows{};  ///< as in CoatedTables::spread
+  std::array<Values, kDirections> rows{};  ///< as in CoatedTables::spread
 
   explicit SpreadMatrix(const CoatedLobe<R>& lobe) {
-    constexpr int n0 = CoatedTables::kColumns * kDirections;
+    constexpr int n0 = kDirections * kDirections;
     for (int q = 0; q < 4; ++q) {
       const float* p = lobe.tables->spread + (lobe.width.first + q) * n0;
-      for (int k = 0; k < CoatedTables::kColumns; ++k)
+      for (int k = 0; k < kDirections; ++k)
         for (int j = 0; j < kDirections; ++j)
           rows[k][j] += lobe.width.weight[q] * R(p[k * kDirections + j]);
     }
   }
 
-  R cosine(int k) const { return limited(rows[kDirections][k], R(0), R(1)); }
   /// What G counts as at least, over g.
   R least_mean() const { return 0; }
 
   /// What values at the directions are multiplied with for that along the direction of `lobe`.
   static Values weights_at(const CoatedLobe<R>& lobe) {
-    return SpreadPoints<R, kDirections>::get().weights_at(
-        axes::spread_direction(lobe.z, lobe.cosines));
+    return SpreadPoints<R, kDirections>::get().weights_at(lobe.z);
   }
 
   /// int K `of` |cos i| di along the directions, for `count` functions.
@@ -90,7 +90,7 @@ struct SpreadMatrix {
   }
 };
 
-/// That of stretched facets, of both their widths: as large as 200 of the other.
+/// That of stretched facets, of both their widths: as large as 40 of the other.
 template <class R>
 class StretchedMatrix {
  public:
@@ -107,9 +107,8 @@ class StretchedMatrix {
         Stencil<R>::at(axes::ring(lobe.along.wide, lobe.along.narrow), axes::kSpreadRings);
     if (lobe.tables == tables_ && lobe.along.root == root_ && ring == ring_) return;
     tables_ = lobe.tables, root_ = lobe.along.root, ring_ = ring, mean_ = lobe.along.mean;
-    constexpr int n1 = CoatedTables::kStretchedColumns * kDirections,
-                  n0 = n1 * coefficients(axes::kSpreadRings);
-    for (int k = 0; k < CoatedTables::kStretchedColumns; ++k) {
+    constexpr int n1 = kDirections * kDirections, n0 = n1 * coefficients(axes::kSpreadRings);
+    for (int k = 0; k < kDirections; ++k) {
       Values row{};
       add_terms(row.data(), kDirections, tables_->spread_stretched + k * kDirections, R(1), root_,
                 n0, ring_, n1);
@@ -117,14 +116,12 @@ class StretchedMatrix {
     }
   }
 
-  R cosine(int k) const { return limited(R(rows_[kDirections * kDirections + k]), R(0), R(1)); }
   /// Less than G is along the surface, where broad lobes lead most away; of narrow ones, of which
   /// few directions know, polynomials may swing below 0.
   R least_mean() const { return std::min(R(0.002) / mean_, R(0.1)); }
 
   static Values weights_at(const CoatedLobe<R>& lobe) {
-    const auto heights =
-        SpreadPoints<R, kHeights>::get().weights_at(axes::spread_direction(lobe.z, lobe.cosines));
+    const auto heights = SpreadPoints<R, kHeights>::get().weights_at(lobe.z);
     const FacetsAlong<R>& f = lobe.along;
     const R turn = axes::spread_turn(f.x, f.y, f.wide / f.narrow);
     const auto turns = chebyshev_weights<kTurns>((1 + std::cos(kPi<R> * turn)) / 2);
@@ -137,7 +134,7 @@ class StretchedMatrix {
   /// int K `of` |cos i| di along the directions, for `count` functions: of a few rows at a time,
   /// which stay in the cache, for all of them.
   void means(const Values* of, int count, Values* to) const {
-    constexpr int kRows = 32;
+    constexpr int kRows = kHeights;
     std::fill_n(to, count, Values{});
     for (int first = 0; first < kDirections; first += kRows)
       for (int n = 0; n < count; ++n) {
@@ -150,16 +147,25 @@ class StretchedMatrix {
  private:
   const CoatedTables* tables_ = nullptr;
   Stencil<R> root_, ring_;
-  R mean_;                                                     ///< of both widths
-  float rows_[CoatedTables::kStretchedColumns * kDirections];  ///< as CoatedTables has them
+  R mean_;                                 ///< of both widths
+  float rows_[kDirections * kDirections];  ///< as CoatedTables has them
 };
+
+/// Calls `visit(first, z)` for each |cosine| z of the directions of a matrix: as many as it has
+/// turns from the first on.
+template <class Matrix, class R, class Visit>
+inline void for_each_height(const Visit& visit) {
+  const auto& cosine = SpreadPoints<R, Matrix::kHeights>::get().cosine;
+  for (int h = 0; h < Matrix::kHeights; ++h) visit(h * Matrix::kTurns, cosine[h]);
+}
 
 /// int K g |cos i| di along the direction of `lobe`, of whose widths `matrix` is, for `g` of the
 /// |cosine|.
 template <class Matrix, class R, class G>
 inline R mean_along(const Matrix& matrix, const CoatedLobe<R>& lobe, const G& g) {
   typename Matrix::Values of, all;
-  for (int k = 0; k < Matrix::kDirections; ++k) of[k] = g(matrix.cosine(k));
+  for_each_height<Matrix, R>(
+      [&](int first, R z) { std::fill_n(&of[first], Matrix::kTurns, g(z)); });
   matrix.means(&of, 1, &all);
   const auto weights = Matrix::weights_at(lobe);
   R sum = 0;

@@ -212,13 +212,14 @@ class UnderCoats {
     constexpr int kDirections = Matrix::kDirections;
     using Values = typename Matrix::Values;
     Values through[kWavelengths], reflected[kWavelengths];
-    for (int k = 0; k < kDirections; ++k) {
-      CoatsAlong<R> along(coats, matrix.cosine(k));
+    for_each_height<Matrix, R>([&](int first, R z) {
+      CoatsAlong<R> along(coats, z);
       for (int n = 0; n < count_; ++n) {
-        through[n][k] = along.through(wavelength[n]);
-        if (reflects_) reflected[n][k] = along.reflected(wavelength[n]);
+        std::fill_n(&through[n][first], Matrix::kTurns, along.through(wavelength[n]));
+        if (reflects_)
+          std::fill_n(&reflected[n][first], Matrix::kTurns, along.reflected(wavelength[n]));
       }
-    }
+    });
     Values below[kWavelengths];
     if (coats.count > 0)
       scaled(matrix, through, count_, 4, below);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the tables of materials/coated.h and writes them as C++ to the named file: run by the
-// build, in three minutes of one core.
+// build, in four minutes of one core.
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -40,7 +40,8 @@ std::vector<float> write_coat(const TableFiles& to, const std::string& name,
                               const std::vector<Spread>& lobes, const Broad& broad) {
   const int count = int(lobes.size());
   return write_lobes(to, name + "CoatTable", count, [&](int k, double eta) {
-    return scaled_coat(lobes[k], shares(eta, broad(double(k) / (count - 1))).reflected);
+    const Values reflected = shares(eta, broad(double(k) / (count - 1))).reflected;
+    return as_coat(scaled(lobes[k], {reflected})[0], reflected);
   });
 }
 
@@ -51,41 +52,36 @@ std::vector<std::vector<float>> write_under(const TableFiles& to, const std::str
   for (const double s : axes::kHeld)
     tables.push_back(write_lobes(to, name + "UnderTable" + std::to_string(tables.size()),
                                  int(lobes.size()), [&](int k, double eta) {
-                                   return scaled_below(lobes[k], shares(eta, {s, 0}).through);
+                                   const Values through = shares(eta, {s, 0}).through;
+                                   return below_coat(scaled(lobes[k], {through})[0], through);
                                  }));
   return tables;
 }
 
-/// The columns of a lobe's matrix, and of cosines.
-Values spread_columns(const Spread& lobe, double width) {
+/// The columns of a lobe's matrix.
+Values spread_columns(const Spread& lobe) {
   constexpr int kDirections = axes::kSpread;
   const auto& points = SpreadPoints<double, kDirections>::get();
-  Values columns(CoatedTables::kColumns * kDirections);
-  std::vector<Values> polynomial(kDirections, Values(kNodes));
+  Values columns(kDirections * kDirections);
+  std::vector<Values> polynomials(kDirections, Values(kNodes));
   for (int i = 0; i < kNodes; ++i) {
-    const auto weights = points.weights_at(axes::spread_direction(directions().z[i], width));
-    for (int k = 0; k < kDirections; ++k) polynomial[k][i] = weights[k];
+    const auto weights = points.weights_at(directions().z[i]);
+    for (int k = 0; k < kDirections; ++k) polynomials[k][i] = weights[k];
   }
-  const auto axis = [&](double z, double) { return axes::spread_direction(z, width); };
-  double* cosines = &columns[kDirections * kDirections];
-  for (int k = 0; k < kDirections; ++k) cosines[k] = cosine(points.place[k], axis);
-  for (int k = 0; k < kDirections; ++k) {
-    const Values mean = lobe.mean(polynomial[k]);
+  const auto means = lobe.means(polynomials);
+  for (int k = 0; k < kDirections; ++k)
     for (int j = 0; j < kDirections; ++j)
-      columns[k * kDirections + j] = Place::of(cosines[j]).value(mean);
-  }
+      columns[k * kDirections + j] = Place::of(points.cosine[j]).value(means[k]);
   return columns;
 }
 
-/// All lobes of one kind as matrices; `width(place)` along the axis of widths.
-template <class Width>
-void write_spread(const TableFiles& to, const std::string& name, const std::vector<Spread>& lobes,
-                  const Width& width) {
+/// All lobes of one kind as matrices.
+void write_spread(const TableFiles& to, const std::string& name, const std::vector<Spread>& lobes) {
   const int count = int(lobes.size());
-  constexpr int kNumbers = CoatedTables::kColumns * axes::kSpread;
+  constexpr int kNumbers = axes::kSpread * axes::kSpread;
   Grid grid({count, kNumbers}, [](const double*) { return 0.0; });
   parallel(count, [&](int k) {
-    const Values columns = spread_columns(lobes[k], width(double(k) / (count - 1)));
+    const Values columns = spread_columns(lobes[k]);
     std::copy(columns.begin(), columns.end(), grid.values.begin() + k * kNumbers);
   });
   const Values spline = grid.spline(1);
@@ -134,10 +130,9 @@ int main(int argc, char** argv) {
                [](double x) { return Broadness<double>::facets(glossy_as_facets(gloss_at(x))); });
     write_under(to, "kGlossy", glossy);
     write_under(to, "kMatte", matte);
-    const auto facet_width = [](double place) { return width(alpha_at(place)); };
-    write_spread(to, "kGgx", ggx, facet_width);
-    write_spread(to, "kBeckmann", beckmann, facet_width);
-    write_spread(to, "kGlossy", glossy, [](double place) { return gloss_width(gloss_at(place)); });
-    write_spread(to, "kMatte", matte, [](double) { return 1.0; });
+    write_spread(to, "kGgx", ggx);
+    write_spread(to, "kBeckmann", beckmann);
+    write_spread(to, "kGlossy", glossy);
+    write_spread(to, "kMatte", matte);
   });
 }

@@ -11,6 +11,7 @@
 #include "materials/coat.h"
 #include "materials/facets.h"
 #include "materials/spread.h"
+#include "materials/tables/losses.h"
 
 namespace mms::materials::tables {
 
@@ -18,7 +19,7 @@ using Values = std::vector<double>;
 
 /// |Cosine| at a place on the axis of directions.
 inline double cosine_at(double place) {
-  return std::sin(place * place * place * place * kPi<double> / 2);
+  return cosine(place, [](double z, double) { return axes::coat_direction(z); });
 }
 
 /// The slope that a share `u` of facets of width 1 does not exceed.
@@ -80,43 +81,43 @@ struct Cubic {
   }
 };
 
-/// G^2 of materials/coated.h of a lobe that is to reflect the share A along each direction, from g
-/// = A / sqrt(K A), which is nearly right, by powers of what is still wrong (Knight, Ruiz and Ucar
-/// 2014: the symmetric form of Sinkhorn's iteration), two in turn as in materials/spread.h.
+/// G^2 of materials/coated.h of a lobe that is to reflect each of some shares A, from g = A /
+/// sqrt(K A), which is nearly right, by powers of what is still wrong (Knight, Ruiz and Ucar 2014:
+/// the symmetric form of Sinkhorn's iteration), two in turn as in materials/spread.h.
 template <class Lobe>
-Values scaled(const Lobe& lobe, const Values& share) {
-  Values g = share, mean;
+std::vector<Values> scaled(const Lobe& lobe, const std::vector<Values>& shares) {
+  std::vector<Values> all = shares, means;
   const auto spread = [&] {
-    mean = lobe.mean(g);
-    for (double& m : mean) m = std::max(m, 1e-9);  // cubics between nodes may swing below 0
+    means = lobe.means(all);
+    for (Values& mean : means)
+      for (double& m : mean) m = std::max(m, 1e-9);  // cubics between nodes may swing below 0
   };
   spread();
   double worst = 1;
-  for (int n = 0; n < 100 && worst > 1e-7; ++n) {
+  for (int step = 0; step < 100 && worst > 1e-7; ++step) {
     worst = 0;
-    for (std::size_t o = 0; o < g.size(); ++o) {
-      worst = std::max(worst, std::abs(g[o] * mean[o] - share[o]));
-      g[o] *= std::pow(share[o] / (g[o] * mean[o]), kScalingPowers<double>[n % 2]);
-    }
+    for (std::size_t n = 0; n < all.size(); ++n)
+      for (std::size_t o = 0; o < all[n].size(); ++o) {
+        double& g = all[n][o];
+        const double share = shares[n][o], mean = means[n][o];
+        worst = std::max(worst, std::abs(g * mean - share));
+        g *= std::pow(share / (g * mean), kScalingPowers<double>[step % 2]);
+      }
     spread();
   }
-  for (double& m : mean) m *= m;
-  return mean;
+  for (Values& mean : means)
+    for (double& m : mean) m *= m;
+  return means;
 }
 
-/// What CoatedTables hold of that, below a coat and as one.
-template <class Lobe>
-Values scaled_below(const Lobe& lobe, const Values& through) {
-  Values above = scaled(lobe, through);
-  for (std::size_t o = 0; o < above.size(); ++o) above[o] -= through[o];
-  return above;
+/// What CoatedTables hold of `squares`, these G^2: below a coat and as one.
+inline Values below_coat(Values squares, const Values& through) {
+  for (std::size_t o = 0; o < squares.size(); ++o) squares[o] -= through[o];
+  return squares;
 }
-template <class Lobe>
-Values scaled_coat(const Lobe& lobe, const Values& reflected) {
-  Values quotient = scaled(lobe, reflected);
-  for (std::size_t o = 0; o < quotient.size(); ++o)
-    quotient[o] = std::log(quotient[o] / reflected[o]);
-  return quotient;
+inline Values as_coat(Values squares, const Values& reflected) {
+  for (std::size_t o = 0; o < squares.size(); ++o) squares[o] = std::log(squares[o] / reflected[o]);
+  return squares;
 }
 
 /// E and T of a coat along directions of the |cosines| `z`.

@@ -66,6 +66,11 @@ struct Spread {
       for (int o = 0; o < kNodes; ++o) m[o] += to[i][o] * of[i];
     return m;
   }
+  std::vector<Values> means(const std::vector<Values>& of) const {
+    std::vector<Values> all;
+    for (const Values& one : of) all.push_back(mean(one));
+    return all;
+  }
   void normalise() {
     const Values all = sums();
     for (Values& line : to)

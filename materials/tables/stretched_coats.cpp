@@ -15,17 +15,17 @@
 namespace mms::materials::tables {
 namespace {
 
-constexpr int kHeights = 40, kTurns = 16, kNodes = kHeights * kTurns;
+constexpr int kHeights = 40, kTurns = 22, kNodes = kHeights * kTurns;
 
 /// Directions of a quarter of the hemisphere, which facets see alike in all four: in the middles
-/// of steps along the axis of directions, and of an axis of azimuths half way between the surface
-/// and facets that look round.
+/// of steps along a power of 3/8 of their angle from grazing, and along an axis of azimuths half
+/// way between the surface and facets that look round.
 class Directions {
  public:
-  explicit Directions(double aspect) : aspect_(aspect) {
+  explicit Directions(double aspect) : stretch_(std::sqrt(aspect)) {
     for (int k = 0; k < kHeights; ++k) {
-      z_[k] = cosine_at((k + 0.5) / kHeights);
-      const double a = cosine_at(double(k) / kHeights), b = cosine_at((k + 1.0) / kHeights);
+      z_[k] = height_at((k + 0.5) / kHeights);
+      const double a = height_at(double(k) / kHeights), b = height_at((k + 1.0) / kHeights);
       height_[k] = (b - a) * (b + a);
     }
     for (int k = 0; k < kTurns; ++k) {
@@ -46,8 +46,9 @@ class Directions {
   /// Calls visit(node, weight) for the nodes that a value along `w` is interpolated from.
   template <class Visit>
   void spread(Vec3d w, const Visit& visit) const {
-    const Cubic height(axes::coat_direction(w.z) * kHeights - 0.5, 0, kHeights - 4);
-    const Cubic turn(axes::azimuth(std::sqrt(aspect_) * w.x, w.y) * kTurns - 0.5, -2, kTurns - 2);
+    const double root = axes::grazing_direction(w.z);
+    const Cubic height(root * std::sqrt(root) * kHeights - 0.5, 0, kHeights - 4);
+    const Cubic turn(axes::azimuth(stretch_ * w.x, w.y) * kTurns - 0.5, -2, kTurns - 2);
     for (int t = 0; t < 4; ++t) {
       const int k = turn.first + t, mirrored = k < 0 ? -1 - k : k < kTurns ? k : 2 * kTurns - 1 - k;
       for (int h = 0; h < 4; ++h)
@@ -62,13 +63,16 @@ class Directions {
   }
 
  private:
+  static double height_at(double place) {
+    return std::sin(std::pow(place, 8.0 / 3) * kPi<double> / 2);
+  }
   /// The azimuth from the narrower axis: the inverse of axes::azimuth.
   double turn_at(double place) const {
     const double a = place * kPi<double> / 2;
-    return std::atan2(std::sin(a), std::sqrt(aspect_) * std::cos(a));
+    return std::atan2(std::sin(a), stretch_ * std::cos(a));
   }
 
-  double aspect_;  ///< quotient of both widths
+  double stretch_;  ///< of azimuths: the root of the quotient of both widths
   double z_[kHeights], height_[kHeights], turn_[kTurns], width_[kTurns];
 };
 
@@ -85,10 +89,12 @@ class Lobe {
 
   const Directions& directions() const { return directions_; }
 
-  Values mean(const Values& of) const {
-    Values m(kNodes);
-    for (int o = 0; o < kNodes; ++o) m[o] = product(rows_[o], of);
-    return m;
+  /// Of some functions at once, as rows take longer to fetch than to sum.
+  std::vector<Values> means(const std::vector<Values>& of) const {
+    std::vector<Values> all(of.size(), Values(kNodes));
+    for (int o = 0; o < kNodes; ++o)
+      for (std::size_t n = 0; n < of.size(); ++n) all[n][o] = product(rows_[o], of[n]);
+    return all;
   }
 
  private:
@@ -143,30 +149,31 @@ double index_at(double place) {
 /// Coats that a lobe lies below, by how broad they are.
 constexpr int kUnder = std::size(axes::kStretchedHeld);
 
-/// As a coat of index `eta`, along all directions.
-template <class Lobe>
-Values as_coat(const Lobe& lobe, double eta, const Broadness<double>& broad) {
-  return scaled_coat(lobe, CoatShares(
-                               kNodes, [&](int o) { return lobe.directions().at(o).z; }, eta, broad)
-                               .reflected);
-}
+/// What the tables hold for a coat of index `eta`, along all directions of the lobe.
+struct Coated {
+  Values coat, under[kUnder];  ///< as a coat as broad as `broad`; below one of each breadth
 
-/// Below a coat of index `eta` and a broadness of axes::kStretchedHeld.
-template <class Lobe>
-Values below_coat(const Lobe& lobe, double eta, double held) {
-  return scaled_below(
-      lobe,
-      CoatShares(kNodes, [&](int o) { return lobe.directions().at(o).z; }, eta, {held, 0}).through);
-}
+  template <class Lobe>
+  Coated(const Lobe& lobe, double eta, const Broadness<double>& broad) {
+    const auto of = [&](const Broadness<double>& b) {
+      return CoatShares(
+          kNodes, [&](int o) { return lobe.directions().at(o).z; }, eta, b);
+    };
+    std::vector<Values> shares = {of(broad).reflected};
+    for (const double held : axes::kStretchedHeld) shares.push_back(of({held, 0}).through);
+    const auto squares = scaled(lobe, shares);
+    coat = as_coat(squares[0], shares[0]);
+    for (int b = 0; b < kUnder; ++b) under[b] = below_coat(squares[1 + b], shares[1 + b]);
+  }
+};
 
 /// CoatedTables::spread_stretched of one lobe.
 template <class Lobe>
 Values spread_columns(const Lobe& lobe, double wide, double narrow) {
   using Matrix = StretchedMatrix<double>;
   const CoatedTables none{};
-  const auto seen = [&](Vec3d w) { return CoatedLobe<double>::facets(none, wide, narrow, w); };
   std::vector<Vec3d> directions;
-  for (const double height : SpreadPoints<double, Matrix::kHeights>::get().place)
+  for (const double z : SpreadPoints<double, Matrix::kHeights>::get().cosine)
     for (int t = 0; t < Matrix::kTurns; ++t) {
       const auto along = [](double turn) {
         return Vec3d{std::sin(turn * kPi<double> / 2), std::cos(turn * kPi<double> / 2), 0};
@@ -175,23 +182,18 @@ Values spread_columns(const Lobe& lobe, double wide, double narrow) {
         return axes::spread_turn(along(at).x, along(at).y, wide / narrow);
       };
       const Vec3d to = along(inverse(turn, (t + 0.5) / Matrix::kTurns));
-      const double z = cosine(height, [&](double c, double s) {
-        return axes::spread_direction(c, seen({s * to.x, s * to.y, c}).cosines);
-      });
       const double s = std::sqrt((1 - z) * (1 + z));
       directions.push_back({s * to.x, s * to.y, z});
     }
-  std::vector<Values> polynomial(Matrix::kDirections, Values(kNodes));
+  std::vector<Values> polynomials(Matrix::kDirections, Values(kNodes));
   for (int i = 0; i < kNodes; ++i) {
-    const auto weights = Matrix::weights_at(seen(lobe.directions().at(i)));
-    for (int k = 0; k < Matrix::kDirections; ++k) polynomial[k][i] = weights[k];
+    const auto weights =
+        Matrix::weights_at(CoatedLobe<double>::facets(none, wide, narrow, lobe.directions().at(i)));
+    for (int k = 0; k < Matrix::kDirections; ++k) polynomials[k][i] = weights[k];
   }
   Values columns;
-  for (const Values& of : polynomial) {
-    const Values mean = lobe.mean(of);
+  for (const Values& mean : lobe.means(polynomials))
     for (const Vec3d& w : directions) columns.push_back(lobe.directions().value(mean, w));
-  }
-  for (const Vec3d& w : directions) columns.push_back(w.z);
   return columns;
 }
 
@@ -240,17 +242,16 @@ Differences differences(const ShapeFit& shapes, double root, const CoatedTables&
     all.spread.push_back(spread_columns(lobe, wide, narrow));
     for (int n = 0; n < kStretchedCoatIndex; ++n) {
       const double eta = index_at(double(n) / (kStretchedCoatIndex - 1));
-      fill(all.coat, n, as_coat(lobe, eta, Broadness<double>::facets(root)),
-           [&](const auto& width, double place) {
-             return interpolate_coat(round.coat, width, eta, place);
-           });
+      const Coated coated(lobe, eta, Broadness<double>::facets(root));
+      fill(all.coat, n, coated.coat, [&](const auto& width, double place) {
+        return interpolate_coat(round.coat, width, eta, place);
+      });
       for (int b = 0; b < kUnder; ++b) {
         const auto weights = lagrange<double>(kHeld, kStretchedHeld[b]);
-        fill(all.under[b], n, below_coat(lobe, eta, kStretchedHeld[b]),
-             [&](const auto& width, double place) {
-               return interpolate_coat(round.under, weights.data(), int(weights.size()), width, eta,
-                                       place);
-             });
+        fill(all.under[b], n, coated.under[b], [&](const auto& width, double place) {
+          return interpolate_coat(round.under, weights.data(), int(weights.size()), width, eta,
+                                  place);
+        });
       }
     }
   }
@@ -270,7 +271,8 @@ StretchedTables stretched_coats(const CoatedTables& round) {
   std::vector<Grid> fitted(1 + kUnder, nothing);
   static_assert(kSpreadRings == kStretchedCoatShapes.outwards() + 2,
                 "round facets, and ShapeFit's rings");
-  constexpr int numbers = CoatedTables::kStretchedColumns * StretchedMatrix<double>::kDirections;
+  constexpr int directions = StretchedMatrix<double>::kDirections,
+                numbers = directions * directions;
   Grid spread({kStretchedCoatAlpha, kSpreadRings, numbers});
   parallel(steps, [&](int k) {
     const double place = (k + 1.0) / steps;
