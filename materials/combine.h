@@ -26,8 +26,8 @@
 ///                               2001, where the coat is polished)
 /// so that a lossless base under a lossless coat is 1 in every direction: round facets, `glossy`
 /// and both mattes under any such coat within 1e-4 for indices from 1.005 to 4 and roughness from
-/// 0.05, beyond these 4e-4, and towards index 1 or 8 1e-3; stretched facets in it or under it 1e-4
-/// up to anisotropy 0.9 for indices from 1.02 to 4 and roughness from 0.2, 5e-4 at anisotropy 1, in
+/// 0.05, beyond these 4e-4, and towards index 1 or 8 1e-3; stretched facets in it or under it 2e-4
+/// up to anisotropy 0.9 for indices from 1.02 to 4 and roughness from 0.2, 3e-4 at anisotropy 1, in
 /// a coat of index 1.005 or 8 2e-4, of 1.001 1e-3, and above 8 1e-2.
 /// All other lobes get
 ///   base: min(T, T')
@@ -51,10 +51,11 @@
 /// inverse (materials/coat.h), and a coat whose index is 1 at every wavelength is not there.
 ///
 /// Under a film, of `film_mix(base, coat, ior, film_ior, thickness, wavelength)`, E is what film
-/// and interface reflect (materials/coat.h), and g and h are solved for too. Mattes, facets and
-/// `glossy` in it and under it keep their energy within 1e-4 where it is up to 1.2 waves thick,
-/// 3e-4 up to 2, 1e-3 up to 4 and 1e-4 above; stretched facets of roughness from 0.2 within 2e-4 up
-/// to 1.2 waves, at any anisotropy, and 1e-3 up to 2.
+/// and interface reflect (materials/coat.h), and g and h are solved for too. Mattes, round facets
+/// and `glossy` in it and under it keep their energy within 1e-4 however thick it is. Stretched
+/// facets of roughness from 0.2, up to anisotropy 0.9, do within 2e-4 under films of up to 1.2
+/// waves and 4e-4 of up to 2, Beckmann's 5e-4 and 8e-4; in them, along the surface, within 4e-4 and
+/// 1.3e-3, Beckmann's 8e-4 and 1.5e-3; at anisotropy 1 up to five times as far.
 ///
 /// Interfaces right below the coat, or below several, get what passes it once if light changes
 /// sides, twice if it stays outside, and never if it stays inside, along the directions outside;

@@ -93,7 +93,7 @@ TEST_CASE("a lossless lobe under a lossless coat keeps its energy") {
 
 TEST_CASE("rough_matte under a polished coat keeps its energy") {
   const auto make = [](double r) { return tinted(Lobe::RoughMatte, 1, {r}); };
-  const Range a = under_coats(make, {0.15, 0.5, 1.0}, {1.05, 1.5, 4.0}, 0, 6);
+  const Range a = under_coats(make, {0.15, 0.5, 1.0}, {1.05, 1.5, 4.0}, 0, 8);
   CHECK(a.least > 1 - 1e-4);
   CHECK(a.most < 1 + 1e-4);
   MESSAGE("albedo from ", a.least, " to ", a.most);
@@ -270,7 +270,7 @@ TEST_CASE("what lies under a film, and a coat under one, keeps its energy") {
         const auto place = [k](double step) { return std::fmod(k * step, 1.0); };
         const double degrees = kAngles[k % std::size(kAngles)];
         const double ior = 1.02 * std::pow(2.5 / 1.02, place(0.5497)),
-                     film = most > 0 ? 1 + 1.5 * place(0.4503) : std::sqrt(ior),
+                     film = most > 0 ? 1 + 1.5 * place(0.2137) : std::sqrt(ior),
                      thickness = most > 0 ? least * std::pow(most / least, place(0.7549))
                                           : 5e-7 / (4 * film);
         const Material m =
@@ -289,24 +289,22 @@ TEST_CASE("what lies under a film, and a coat under one, keeps its energy") {
                            return fresnel_mix(microfacet(1, 0.1 + 0.9 * x), glossy(1, 30), 1.5);
                          }}};
   struct Thickness {
-    double least, most, bound;
+    double least, most;
   };
-  for (const Thickness& t : {Thickness{0, 0, 1e-4},
-                             {1e-8, 6e-7, 1e-4},
-                             {6e-7, 1e-6, 3e-4},
-                             {1e-6, 4e-6, 1e-3},
-                             {4e-6, 1e-4, 1e-4}})
+  for (const Thickness& t :
+       {Thickness{0, 0}, {1e-8, 6e-7}, {6e-7, 1e-6}, {1e-6, 4e-6}, {4e-6, 1e-4}})
     for (const Kind& base : bases) {
-      const Range a = under_films(base, round, t.least, t.most, 6);
-      CHECK_MESSAGE(a.least > 1 - t.bound, base.name);
-      CHECK_MESSAGE(a.most < 1 + t.bound, base.name);
+      const int panels = base.name == "rough_matte" ? 8 : 6;  // it is not smooth
+      const Range a = under_films(base, round, t.least, t.most, panels);
+      CHECK_MESSAGE(a.least > 1 - 1e-4, base.name);
+      CHECK_MESSAGE(a.most < 1 + 1e-4, base.name);
     }
   for (const Kind& kind : stretched)
     for (const double most : {0.0, 6e-7, 1e-6}) {
       const int panels = kind.name == "anisotropy 0.5" ? 4 : 10;  // lobes are narrow
       const Range under = under_films(kind, round, 1e-8, most, panels),
                   coat = under_films(bases[0], {&kind, 1}, 1e-8, most, panels);
-      const double bound = most < 1e-6 ? 2e-4 : 1e-3;
+      const double bound = most < 1e-6 ? 1e-4 : 3e-4;
       CHECK_MESSAGE(under.least > 1 - bound, kind.name);
       CHECK_MESSAGE(under.most < 1 + bound, kind.name);
       CHECK_MESSAGE(coat.least > 1 - bound, kind.name);
