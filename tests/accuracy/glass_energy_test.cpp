@@ -27,7 +27,8 @@ constexpr bool fits(materials::ShapeOrder order) {
 constexpr bool fit(const auto& grids) { return fits(grids[0].shapes) && fits(grids[1].shapes); }
 static_assert(fit(materials::kGgxBent) && fit(materials::kBeckmannBent));
 static_assert(fit(materials::axes::kFilmBent) && fit(materials::axes::kBentFilmGlass));
-static_assert(fit(materials::axes::kBentGlass) && fits(materials::axes::kStretchedCoatShapes));
+static_assert(fit(materials::axes::kBentGlass) && fits(materials::axes::kStretchedCoatShapes) &&
+              fits(materials::axes::kStretchedShapes));
 
 /// All that comes back of light along `wo` from either side of `m`.
 double albedo(const Material& m, const auto& facets, double ior, Vec3d wo) {
