@@ -20,9 +20,9 @@ namespace mms::materials {
 
 /// l over direction and width, for one distribution of normals.
 struct FacetTables {
-  const float* loss;            ///< [alpha][direction], isotropic
-  const float* mean;            ///< [alpha], isotropic, over `mean_unit`
-  const float* stretched;       ///< [width][direction][term of ShapeBasis], less of round ones
+  const float* loss;       ///< [alpha][direction], isotropic
+  const float* mean;       ///< [alpha], isotropic, over `mean_unit`
+  const float* stretched;  ///< [width][direction][term of ShapeBasis], see FacetLoss::difference
   const float* stretched_mean;  ///< [alpha][aspect]
 };
 extern const FacetTables kGgxTables, kBeckmannTables;

@@ -101,12 +101,12 @@ class StretchedMatrix {
 
   StretchedMatrix() {}  // not zeroed
 
-  /// As those of `lobe`, which takes long; unless it is.
+  bool is_of(const CoatedLobe<R>& lobe) const {
+    return lobe.tables == tables_ && lobe.along.root == root_ && ring(lobe) == ring_;
+  }
+  /// Makes it the matrix of a lobe, which takes long.
   void read(const CoatedLobe<R>& lobe) {
-    const auto ring =
-        Stencil<R>::at(axes::ring(lobe.along.wide, lobe.along.narrow), axes::kSpreadRings);
-    if (lobe.tables == tables_ && lobe.along.root == root_ && ring == ring_) return;
-    tables_ = lobe.tables, root_ = lobe.along.root, ring_ = ring, mean_ = lobe.along.mean;
+    tables_ = lobe.tables, root_ = lobe.along.root, ring_ = ring(lobe), mean_ = lobe.along.mean;
     constexpr int n1 = kDirections * kDirections, n0 = n1 * coefficients(axes::kSpreadRings);
     for (int k = 0; k < kDirections; ++k) {
       Values row{};
@@ -145,6 +145,10 @@ class StretchedMatrix {
   }
 
  private:
+  static Stencil<R> ring(const CoatedLobe<R>& lobe) {
+    return Stencil<R>::at(axes::ring(lobe.along.wide, lobe.along.narrow), axes::kSpreadRings);
+  }
+
   const CoatedTables* tables_ = nullptr;
   Stencil<R> root_, ring_;
   R mean_;                                 ///< of both widths

@@ -141,15 +141,26 @@ struct SolvedDirections {
   R rest[kWavelengths][Matrix::kDirections];
 };
 
-/// What stretched lobes are solved with, the last one's matrix, and what is solved: a megabyte that
-/// few materials need.
+/// What stretched lobes are solved with, the matrices of the last two, and what is solved: a
+/// megabyte that few materials need.
 template <class R>
-struct StretchedSolutions {
+class StretchedSolutions {
+ public:
   using Matrix = StretchedMatrix<R>;
-  Matrix matrix;
   PerNode<SolvedDirections<R, Matrix>> solved;
 
   StretchedSolutions() {}  // not zeroed
+
+  /// That of a lobe, until two others are asked for.
+  const Matrix& matrix(const CoatedLobe<R>& lobe) {
+    if (!matrices_[last_].is_of(lobe)) last_ = 1 - last_;
+    if (!matrices_[last_].is_of(lobe)) matrices_[last_].read(lobe);
+    return matrices_[last_];
+  }
+
+ private:
+  Matrix matrices_[2];
+  int last_ = 0;
 };
 
 /// G of a lobe, for the wavelengths at which the nearest index is above 1.
@@ -174,8 +185,7 @@ class UnderCoats {
     }
     stretched_ = lobe.stretched() ? &stretched->solved.of[node] : nullptr;
     if (!stretched_) return solve_by(SpreadMatrix<R>(lobe), coats, wavelength, round_);
-    stretched->matrix.read(lobe);
-    solve_by(stretched->matrix, coats, wavelength, *stretched_);
+    solve_by(stretched->matrix(lobe), coats, wavelength, *stretched_);
   }
   bool solves(const CoatedLobe<R>& lobe, const Coats<R>& coats,
               const std::unique_ptr<StretchedSolutions<R>>&, int) const {

@@ -89,6 +89,7 @@ void fit_shapes(const ShapeFit& shapes, double like, double c, double widening, 
   for (int t = 0; t < shapes.terms(); ++t) to[t] = shapes.term(t, values.data());
 }
 
+/// InterfaceTables::stretched, of one side.
 template <template <class> class Distribution>
 std::vector<float> stretched_difference(bool rising, const InterfaceTables& round) {
   using namespace axes;
@@ -115,7 +116,7 @@ std::vector<float> stretched_difference(bool rising, const InterfaceTables& roun
   return {spline.begin(), spline.end()};
 }
 
-/// That, and its mean.
+/// And its mean.
 template <template <class> class Distribution>
 void write_stretched_interface(const TableFiles& to, const std::string& name, bool rising,
                                const RoundInterface& round) {

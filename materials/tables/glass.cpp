@@ -2,7 +2,6 @@
 // Computes the tables of materials/glass_coat.h and writes them as C++ to the named file: run by
 // the build, in five minutes of one core.
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <string>
 #include <vector>

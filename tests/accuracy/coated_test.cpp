@@ -474,6 +474,9 @@ TEST_CASE("a choice that was made for other materials changes nothing") {
       film_mix(dielectric(1.5, 0.3), mirror(1), 1.5, 1.8, 4e-7, 5e-7),
       coat(mirror(1), dielectric(1.5, 0.3), 0, 0, 1.6),
       coat(microfacet(1, 0.3), coat(mirror(1), dielectric(1.5, 0.3), 0, 0, 1.2), 0, 0, 1.6),
+      film_mix(microfacet(1, 0.35, 0.9), microfacet(1, 0.3, 0.8), 1.5, 1.3, 3e-7, 5e-7),
+      film_mix(microfacet(1, 0.35, 0.9), microfacet(1, 0.4, 0.8), 1.5, 1.3, 3e-7, 5e-7),
+      film_mix(beckmann(1, 0.35, 0.9), mirror(1), 1.5, 1.3, 3e-7, 5e-7),
       // One node each, at one place.
       microfacet(1, 0.3), microfacet(0.5, 0.3), microfacet(0.5, 0.4), microfacet(0.5, 0.4, 0.7),
       beckmann(0.5, 0.4, 0.7), conductor(0.2, 3.4, 0.3), coloured_metal(0.2, 3.4, 0.3),
