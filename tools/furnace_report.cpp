@@ -183,7 +183,27 @@ sphere under the default light, and what `mms furnace` says of it.
 - **Phase functions** are per steradian without a cosine, over the whole sphere; each is its own density.
 - Numbers out of range are taken for the nearest that is in it.
 
-In the tables `albedo` is what comes back of light along a direction that many degrees from the normal (above 90: from inside), from the least to the
+## How much energy is kept
+
+What absorbs nothing gives back all light, seen from any direction, but for at most this much. Coats are `coat` and `fresnel_mix` of an index
+from 1.02 to 4, films `film_mix`; round facets are of anisotropy 0.
+
+| material | off by |
+|---|---|
+| `glossy` of exponents to 1e4 | 1e-6 |
+| `microfacet`, `beckmann` and metals of roughness from 0.02, of any anisotropy | 1e-4 |
+| `dielectric` and `beckmann_dielectric` of an index from 1/4 to 4 and roughness from 0.02, of any anisotropy | 1e-3 |
+| `film_dielectric`; at anisotropy 1 one setting in 4000 | 1e-3; 4e-3 |
+| `mirror`, `glossy` and round facets of roughness from 0.05, as coats and, with `matte` and `rough_matte`, below coats and under films of any thickness | 1e-4 |
+| glass below coats and films; at anisotropy 1 one setting in 500 | 1e-3; 5e-3 |
+| other facets, of roughness from 0.2, as coats and below coats, to anisotropy 0.9; at 1 | 2e-4; 3e-4 |
+| the same under films of up to 600 nm; up to 1 um | 5e-4; 8e-4 |
+| the same as a coat under such a film, where it is seen along the surface | 8e-4; 1.5e-3 |
+| the last two at anisotropy 1 | up to five times as much |
+
+All other models lose light as coats and below them, most towards grazing angles. `materials/combine.h` says more.
+
+In the tables below `albedo` is what comes back of light along a direction that many degrees from the normal (above 90: from inside), from the least to the
 most of eight wavelengths; `lost` is what is missing to 1 (negative: gained), `+-` the standard error were the samples independent, and `efficiency` what one sample is worth against one
 whose weight never varies: 1 / (1 + variance / mean^2).
 
