@@ -201,7 +201,9 @@ from 1.02 to 4, films `film_mix`; round facets are of anisotropy 0.
 | the same as a coat under such a film, where it is seen along the surface | 8e-4; 1.5e-3 |
 | the last two at anisotropy 1 | up to five times as much |
 
-All other models lose light as coats and below them, most towards grazing angles. `materials/combine.h` says more.
+Other models may lose light as coats and below them, most towards grazing angles. `ctest --preset release -R accuracy` holds materials to such bounds
+at its own settings; what is said of anisotropy 1, and of other facets with coats and films, are the largest errors that wider random searches found, which are no part of
+the project. `materials/combine.h` says more.
 
 In the tables below `albedo` is what comes back of light along a direction that many degrees from the normal (above 90: from inside), from the least to the
 most of eight wavelengths; `lost` is what is missing to 1 (negative: gained), `+-` the standard error were the samples independent, and `efficiency` what one sample is worth against one
