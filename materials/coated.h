@@ -154,10 +154,12 @@ struct FacetsAlong {
                   n0 = n1 * coefficients(kStretchedCoatIndex);
     const auto n = Stencil<R>::at(stretched_coat_index(eta), kStretchedCoatIndex);
     const auto d = Stencil<R>::at(place, kStretchedCoatDirection);
+    const Basis basis(shape, kStretchedCoatShapes);
     R sums[terms] = {};
     for (int b = 0; b < count; ++b)
-      if (weights[b] != 0) add_terms(sums, terms, tables[b], weights[b], root, n0, n, n1, d, terms);
-    const R sum = Basis(shape, kStretchedCoatShapes).sum(sums);
+      if (weights[b] != 0)
+        add_terms(sums, basis.count, tables[b], weights[b], root, n0, n, n1, d, terms);
+    const R sum = basis.sum(sums);
     // Above the axis few directions are let through.
     const auto mean_through = [](R index) { return 1 - fresnel_dielectric_diffuse(index); };
     return eta > 32 ? sum * (mean_through(eta) / mean_through(R(32))) : sum;

@@ -10,6 +10,7 @@
 /// hemisphere is m = 1/pi int l |w.z| dw. Given back as l(wo) l(wi) / (pi m) (Kulla and Conty
 /// 2017), it makes the albedo 1, is symmetric and is smooth.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -332,39 +333,74 @@ struct Shape {
 
 /// Polynomials over the disc of shapes, even in v and 0 at its centre: r^m cos(m angle), r and
 /// angle polar coordinates of the disc, times Chebyshev's T_k(2 r^2 - 1), where m + step k <=
-/// around: what facets do changes fastest with the angle, next to the rim.
+/// around: what facets do changes fastest with the angle, next to the rim. Those that do not change
+/// with the angle come first, then all of the first `kTogether` angles, of the next, and so on, by
+/// rising k: as r^m falls, those of many angles count for nothing where facets are nearly round.
 template <class R>
-struct ShapeBasis {
-  static constexpr int terms(ShapeOrder order) {
-    int count = -1;  // all but 1
-    for (int k = 0; k <= order.outwards(); ++k) count += order.around - order.step * k + 1;
+class ShapeBasis {
+ public:
+  static constexpr int kTogether = 8;  ///< angles that are summed side by side
+  static constexpr int kMostAround = 24, kMostOutwards = 8;
+
+  /// Those of the first `groups` of angles.
+  static constexpr int terms(ShapeOrder order, int groups) {
+    int count = order.outwards();  // without T_0, which is 1
+    for (int k = 0; k <= order.outwards(); ++k)
+      count += std::min(order.around - order.step * k, groups * kTogether);
     return count;
   }
-  static constexpr int kMostAround = 24, kMost = terms({kMostAround});
+  static constexpr int terms(ShapeOrder order) {
+    return terms(order, (order.around + kTogether - 1) / kTogether);
+  }
+  static constexpr int kMost = terms({kMostAround});
 
-  R value[kMost];
   int count;  ///< of terms
 
-  ShapeBasis(const Shape<R>& shape, ShapeOrder order) : count(terms(order)) {
-    const R r2 = shape.u * shape.u + shape.v * shape.v, x = 2 * r2 - 1;
-    R around[kMostAround + 1] = {1, shape.u};
-    for (int m = 2; m <= order.around; ++m)
-      around[m] = 2 * shape.u * around[m - 1] - r2 * around[m - 2];
-    R outwards = 1, before = x;
-    int at = 0;
-    for (int k = 0; k <= order.outwards(); ++k) {
-      if (k > 0) value[at++] = outwards - R(k % 2 ? -1 : 1);
-      for (int m = 1; m <= order.around - order.step * k; ++m) value[at++] = around[m] * outwards;
-      const R next = 2 * x * outwards - before;
-      before = outwards, outwards = next;
-    }
+  ShapeBasis(const Shape<R>& shape, ShapeOrder order) : order_(order) {
+    const R u = shape.u, v = shape.v, r2 = u * u + v * v, r8 = r2 * r2 * r2 * r2;
+    // Coefficients are no larger than losses: of less, nothing is seen.
+    R next = r8 * std::sqrt(r2);
+    groups_ = 1;
+    for (; groups_ * kTogether < order.around && next > R(1e-5); next *= r8) ++groups_;
+    count = terms(order, groups_);
+    // Of (u + iv)^m, four m at a time.
+    const R u2 = u * u - v * v, v2 = 2 * u * v, u4 = u2 * u2 - v2 * v2, v4 = 2 * u2 * v2;
+    R re[4] = {u, u2, u * u2 - v * v2, u4}, im[4] = {v, v2, u * v2 + v * u2, v4};
+    std::copy_n(re, 4, around_);
+    for (int m = 4; m < groups_ * kTogether; m += 4)
+      for (int i = 0; i < 4; ++i) {
+        const R x = re[i] * u4 - im[i] * v4, y = re[i] * v4 + im[i] * u4;
+        re[i] = x, im[i] = y, around_[m + i] = x;
+      }
+    const R x = 2 * r2 - 1;
+    outwards_[0] = 1, outwards_[1] = x;
+    for (int k = 2; k <= order.outwards(); ++k)
+      outwards_[k] = 2 * x * outwards_[k - 1] - outwards_[k - 2];
   }
 
   R sum(const R* coefficients) const {
+    const R* c = coefficients;
     R sum = 0;
-    for (int t = 0; t < count; ++t) sum += coefficients[t] * value[t];
+    for (int k = 1; k <= order_.outwards(); ++k) sum += *c++ * (outwards_[k] - R(k % 2 ? -1 : 1));
+    for (int group = 0; group < groups_; ++group) {
+      R parts[kTogether] = {};
+      int k = 0, left = order_.around - group * kTogether;  // of the angles
+      for (; left >= kTogether; ++k, left -= order_.step, c += kTogether)
+        for (int i = 0; i < kTogether; ++i) parts[i] += outwards_[k] * c[i];
+      for (; left > 0; ++k, c += left, left -= order_.step)
+        for (int i = 0; i < left; ++i) parts[i] += outwards_[k] * c[i];
+      for (int i = 0; i < kTogether; ++i) parts[i] *= around_[group * kTogether + i];
+      sum += ((parts[0] + parts[4]) + (parts[1] + parts[5])) +
+             ((parts[2] + parts[6]) + (parts[3] + parts[7]));
+    }
     return sum;
   }
+
+ private:
+  ShapeOrder order_;
+  int groups_;
+  R around_[kMostAround];          ///< r^m cos(m angle), m from 1
+  R outwards_[kMostOutwards + 1];  ///< T_k
 };
 
 /// Stretched facets as tables lay them out: x is along the wider axis.
@@ -436,10 +472,11 @@ struct FacetLoss {
     constexpr int terms = Basis::terms(kStretchedShapes),
                   n0 = terms * coefficients(kStretchedDirection);
     const auto d = Stencil<R>::at(dense_direction(f.z, s, width(like)), kStretchedDirection);
+    const Basis basis(f.shape(R(kMirrorWidening)), kStretchedShapes);
     R sums[terms] = {};
-    add_terms(sums, terms, tables->stretched, R(1),
+    add_terms(sums, basis.count, tables->stretched, R(1),
               Stencil<R>::at(bent_width(like), kStretchedWidth), n0, d, terms);
-    return Basis(f.shape(R(kMirrorWidening)), kStretchedShapes).sum(sums);
+    return basis.sum(sums);
   }
 };
 
@@ -513,10 +550,10 @@ struct InterfaceLoss {
     const Basis basis(f.shape(widening(eta, like)), grid().shapes);
     const auto a = Stencil<R>::at(bent_width(like), grid().width);
     const auto n = Stencil<R>::at(bent_index(eta, R(tables->kink)), grid().index);
-    const int n2 = basis.count, n1 = n2 * coefficients(grid().direction),
+    const int n2 = Basis::terms(grid().shapes), n1 = n2 * coefficients(grid().direction),
               n0 = n1 * coefficients(grid().index);
     R sums[Basis::kMost] = {};
-    add_terms(sums, n2, tables->stretched[falls()], R(1), a, n0, n, n1, d, n2);
+    add_terms(sums, basis.count, tables->stretched[falls()], R(1), a, n0, n, n1, d, n2);
     return basis.sum(sums);
   }
   /// Its axes.

@@ -200,11 +200,12 @@ inline std::array<R, Count> of_bent_glass(const float* table, const StretchedFac
   using Basis = ShapeBasis<R>;
   const axes::GlassGrid& grid = kGrids[eta < 1];
   const Basis basis(f.shape(axes::widening(eta, f.like())), grid.shapes);
+  const int terms = Basis::terms(grid.shapes);
   constexpr int most = std::max(Basis::terms(kGrids[0].shapes), Basis::terms(kGrids[1].shapes));
   R sums[Count * most] = {};
-  detail::add_glass(sums, int(Count) * basis.count, table, grid, f, inside, eta, true);
+  detail::add_glass(sums, int(Count) * terms, table, grid, f, inside, eta, true);
   std::array<R, Count> numbers;
-  for (std::size_t i = 0; i < Count; ++i) numbers[i] = basis.sum(sums + i * basis.count);
+  for (std::size_t i = 0; i < Count; ++i) numbers[i] = basis.sum(sums + i * terms);
   return numbers;
 }
 

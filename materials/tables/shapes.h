@@ -34,10 +34,10 @@ class ShapeFit {
     const int columns = terms_ + count();
     std::vector<std::vector<double>> a(terms_, std::vector<double>(columns));
     for (int s = 0; s < count(); ++s) {
-      const ShapeBasis<double> basis(shapes_[s], order);
+      const std::vector<double> value = values(ShapeBasis<double>(shapes_[s], order));
       for (int i = 0; i < terms_; ++i) {
-        a[i][terms_ + s] = basis.value[i];
-        for (int j = 0; j < terms_; ++j) a[i][j] += basis.value[i] * basis.value[j];
+        a[i][terms_ + s] = value[i];
+        for (int j = 0; j < terms_; ++j) a[i][j] += value[i] * value[j];
       }
     }
     for (int i = 0; i < terms_; ++i) a[i][i] += 1e-5;
@@ -73,6 +73,17 @@ class ShapeFit {
     double sum = 0;
     for (int s = 0; s < count(); ++s) sum += inverse_[i][s] * values[s];
     return sum;
+  }
+
+  /// Those of all terms; of terms that do not count, 0.
+  std::vector<double> values(const ShapeBasis<double>& basis) const {
+    std::vector<double> all, one(terms_);
+    for (double& coefficient : one) {
+      coefficient = 1;
+      all.push_back(basis.sum(one.data()));
+      coefficient = 0;
+    }
+    return all;
   }
 
  private:
