@@ -12,7 +12,8 @@ const CoatedTables kGgxCoated{
      kGgxStretchedUnderTable3},
     kGgxStretchedCoatTable,
     kGgxSpreadTable,
-    kGgxStretchedSpreadTable};
+    kGgxStretchedSpreadTable,
+    axes::kGgxSpreadAlpha};
 const CoatedTables kBeckmannCoated{
     {kBeckmannUnderTable0, kBeckmannUnderTable1, kBeckmannUnderTable2, kBeckmannUnderTable3,
      kBeckmannUnderTable4},
@@ -21,20 +22,23 @@ const CoatedTables kBeckmannCoated{
      kBeckmannStretchedUnderTable3},
     kBeckmannStretchedCoatTable,
     kBeckmannSpreadTable,
-    kBeckmannStretchedSpreadTable};
+    kBeckmannStretchedSpreadTable,
+    axes::kBeckmannSpreadAlpha};
 const CoatedTables kGlossyCoated{{kGlossyUnderTable0, kGlossyUnderTable1, kGlossyUnderTable2,
                                   kGlossyUnderTable3, kGlossyUnderTable4},
                                  kGlossyCoatTable,
                                  {},
                                  nullptr,
                                  kGlossySpreadTable,
-                                 nullptr};
+                                 nullptr,
+                                 0};
 const CoatedTables kMatteCoated{
     {kMatteUnderTable0, kMatteUnderTable1, kMatteUnderTable2, kMatteUnderTable3, kMatteUnderTable4},
     nullptr,
     {},
     nullptr,
     kMatteSpreadTable,
-    nullptr};
+    nullptr,
+    0};
 
 }  // namespace mms::materials

@@ -38,8 +38,12 @@ namespace mms::materials {
 namespace axes {
 /// Widths of `rough_matte`, and directions of a lobe's matrix.
 inline constexpr int kCoatedMatte = 5, kSpread = 40;
-/// Directions of one of stretched facets along each azimuth, azimuths, and quotients of widths.
-inline constexpr int kStretchedSpread = 28, kSpreadTurns = 9, kSpreadRings = 7;
+/// Heights of the directions of one of stretched facets; azimuths at each, and fewer at the last,
+/// within 30 degrees of the normal, towards which functions hang on them less; quotients of widths.
+inline constexpr int kStretchedSpread = 27, kSpreadTurns = 12, kSpreadRings = 7;
+inline constexpr int kFewSpreadTurns = 6, kSpreadOfFew = 6;
+/// Its roots of both widths: what Beckmann facets do changes faster with these.
+inline constexpr int kGgxSpreadAlpha = 20, kBeckmannSpreadAlpha = 28;
 /// s of the coats that lobes lie below in the tables.
 inline constexpr double kHeld[] = {0, 0.2, 0.5, 0.8, 1}, kStretchedHeld[] = {0, 0.3, 0.7, 1};
 /// Of stretched facets; the axis of the width is that of an interface.
@@ -94,9 +98,10 @@ struct CoatedTables {
   /// axes::spread_direction, which are 1 at one of the directions and 0 at the others.
   const float* spread;
   /// The same of stretched facets, [root of both alphas][ring][column][direction o], the directions
-  /// of axes::kStretchedSpread at each of axes::kSpreadTurns azimuths, Chebyshev's points over
-  /// axes::spread_turn: polynomials of both.
+  /// of axes::kStretchedSpread heights, azimuths at Chebyshev's points over axes::spread_turn:
+  /// polynomials of both.
   const float* spread_stretched;
+  int spread_alpha;  ///< nodes of its first axis
 };
 extern const CoatedTables kGgxCoated, kBeckmannCoated, kGlossyCoated, kMatteCoated;
 

@@ -58,7 +58,8 @@ struct SpreadPoints {
 /// A round lobe's matrix, of its width.
 template <class R>
 struct SpreadMatrix {
-  static constexpr int kHeights = axes::kSpread, kTurns = 1, kDirections = kHeights;
+  static constexpr int kHeights = axes::kSpread, kDirections = kHeights;
+  static constexpr int turns(int) { return 1; }
   static constexpr int kCoatSteps = 12;  ///< of `scaled`, where E is to be reflected
   using Values = std::array<R, kDirections>;
   std::array<Values, kDirections> rows{};  ///< as in CoatedTables::spread
@@ -75,6 +76,8 @@ struct SpreadMatrix {
 
   /// What G counts as at least, over g.
   R least_mean() const { return 0; }
+  /// How much of T is to be taken from G^2, so that the rest is a polynomial.
+  R kept() const { return 1; }
 
   /// What values at the directions are multiplied with for that along the direction of `lobe`.
   static Values weights_at(const CoatedLobe<R>& lobe) {
@@ -90,27 +93,33 @@ struct SpreadMatrix {
   }
 };
 
-/// That of stretched facets, of both their widths: as large as 40 of the other.
+/// That of stretched facets, of both their widths: as large as 50 of the other.
 template <class R>
 class StretchedMatrix {
  public:
-  static constexpr int kHeights = axes::kStretchedSpread, kTurns = axes::kSpreadTurns;
-  static constexpr int kDirections = kHeights * kTurns;  ///< those of a height are together
-  static constexpr int kCoatSteps = 4;
+  static constexpr int kHeights = axes::kStretchedSpread;
+  static constexpr int turns(int height) {
+    return height < kHeights - axes::kSpreadOfFew ? axes::kSpreadTurns : axes::kFewSpreadTurns;
+  }
+  static constexpr int kDirections =
+      (kHeights - axes::kSpreadOfFew) * axes::kSpreadTurns +
+      axes::kSpreadOfFew * axes::kFewSpreadTurns;  ///< those of a height are together
+  static constexpr int kCoatSteps = 6;
   using Values = std::array<R, kDirections>;
 
   StretchedMatrix() {}  // not zeroed
 
   bool is_of(const CoatedLobe<R>& lobe) const {
-    return lobe.tables == tables_ && lobe.along.root == root_ && ring(lobe) == ring_;
+    return lobe.tables == tables_ && lobe.along.mean == mean_ && ring(lobe) == ring_;
   }
   /// Makes it the matrix of a lobe, which takes long.
   void read(const CoatedLobe<R>& lobe) {
-    tables_ = lobe.tables, root_ = lobe.along.root, ring_ = ring(lobe), mean_ = lobe.along.mean;
+    tables_ = lobe.tables, mean_ = lobe.along.mean, ring_ = ring(lobe);
+    const auto root = Stencil<R>::at(axes::interface_alpha(mean_), tables_->spread_alpha);
     constexpr int n1 = kDirections * kDirections, n0 = n1 * coefficients(axes::kSpreadRings);
     for (int k = 0; k < kDirections; ++k) {
       Values row{};
-      add_terms(row.data(), kDirections, tables_->spread_stretched + k * kDirections, R(1), root_,
+      add_terms(row.data(), kDirections, tables_->spread_stretched + k * kDirections, R(1), root,
                 n0, ring_, n1);
       std::copy(row.begin(), row.end(), rows_ + k * kDirections);
     }
@@ -119,22 +128,32 @@ class StretchedMatrix {
   /// Less than G is along the surface, where broad lobes lead most away; of narrow ones, of which
   /// few directions know, polynomials may swing below 0.
   R least_mean() const { return std::min(R(0.002) / mean_, R(0.1)); }
+  /// Broad lobes blur the fringes of a film, which T has, and G^2 not.
+  R kept() const {
+    constexpr R blurs = R(0.03);
+    return 1 / (1 + mean_ * mean_ / (blurs * blurs));
+  }
 
   static Values weights_at(const CoatedLobe<R>& lobe) {
     const auto heights = SpreadPoints<R, kHeights>::get().weights_at(lobe.z);
     const FacetsAlong<R>& f = lobe.along;
     const R turn = axes::spread_turn(f.x, f.y, f.wide / f.narrow);
-    const auto turns = chebyshev_weights<kTurns>((1 + std::cos(kPi<R> * turn)) / 2);
+    const R x = (1 + std::cos(kPi<R> * turn)) / 2;
+    const auto many = chebyshev_weights<axes::kSpreadTurns>(x);
+    const auto few = chebyshev_weights<axes::kFewSpreadTurns>(x);
     Values to;
+    int k = 0;
     for (int h = 0; h < kHeights; ++h)
-      for (int t = 0; t < kTurns; ++t) to[h * kTurns + t] = heights[h] * turns[t];
+      for (int t = 0; t < turns(h); ++t)
+        to[k++] = heights[h] * (turns(h) == axes::kSpreadTurns ? many[t] : few[t]);
     return to;
   }
 
   /// int K `of` |cos i| di along the directions, for `count` functions: of a few rows at a time,
   /// which stay in the cache, for all of them.
   void means(const Values* of, int count, Values* to) const {
-    constexpr int kRows = kHeights;
+    constexpr int kRows = 32;
+    static_assert(kDirections % kRows == 0);
     std::fill_n(to, count, Values{});
     for (int first = 0; first < kDirections; first += kRows)
       for (int n = 0; n < count; ++n) {
@@ -150,17 +169,18 @@ class StretchedMatrix {
   }
 
   const CoatedTables* tables_ = nullptr;
-  Stencil<R> root_, ring_;
-  R mean_;                                 ///< of both widths
+  R mean_;  ///< of both widths
+  Stencil<R> ring_;
   float rows_[kDirections * kDirections];  ///< as CoatedTables has them
 };
 
-/// Calls `visit(first, z)` for each |cosine| z of the directions of a matrix: as many as it has
-/// turns from the first on.
+/// Calls `visit(first, count, z)` for each |cosine| z of the directions of a matrix, which `count`
+/// of them from the first on have.
 template <class Matrix, class R, class Visit>
 inline void for_each_height(const Visit& visit) {
   const auto& cosine = SpreadPoints<R, Matrix::kHeights>::get().cosine;
-  for (int h = 0; h < Matrix::kHeights; ++h) visit(h * Matrix::kTurns, cosine[h]);
+  for (int h = 0, first = 0; h < Matrix::kHeights; first += Matrix::turns(h++))
+    visit(first, Matrix::turns(h), cosine[h]);
 }
 
 /// int K g |cos i| di along the direction of `lobe`, of whose widths `matrix` is, for `g` of the
@@ -169,7 +189,7 @@ template <class Matrix, class R, class G>
 inline R mean_along(const Matrix& matrix, const CoatedLobe<R>& lobe, const G& g) {
   typename Matrix::Values of, all;
   for_each_height<Matrix, R>(
-      [&](int first, R z) { std::fill_n(&of[first], Matrix::kTurns, g(z)); });
+      [&](int first, int count, R z) { std::fill_n(&of[first], count, g(z)); });
   matrix.means(&of, 1, &all);
   const auto weights = Matrix::weights_at(lobe);
   R sum = 0;
@@ -177,15 +197,18 @@ inline R mean_along(const Matrix& matrix, const CoatedLobe<R>& lobe, const G& g)
   return sum;
 }
 
-/// By a power of what is still wrong, an eigenvalue l of K in [0, 1] leaves 1 - power (1 + l) of
-/// its error. Two powers in turn are the best of two (Chebyshev), a seventeenth at most.
+/// By a power of what is still wrong, an eigenvalue l of K leaves 1 - power (1 + l) of its error.
+/// That of a step of some, which together are the best for l in [-0.2, 1] (Chebyshev): broad facets
+/// lead light along the normal to the surface, and back, so that some l are negative. Four leave a
+/// 230th at most.
 template <class R>
-inline constexpr R kScalingPowers[] = {1 / (R(1.5) + std::numbers::sqrt2_v<R> / 4),
-                                       1 / (R(1.5) - std::numbers::sqrt2_v<R> / 4)};
+inline R scaling_power(int step, int steps) {
+  return 1 / (R(1.4) - R(0.6) * std::cos(kPi<R> * (R(step) + R(0.5)) / R(steps)));
+}
 
 /// G of materials/coated.h for a lobe that is to reflect each of `count` shares, by powers of what
 /// is still wrong (Knight, Ruiz and Ucar 2014), of first order. Four steps leave less than 1e-4
-/// where T is to be reflected, Matrix::kCoatSteps of E.
+/// where T is to be reflected, Matrix::kCoatSteps where E is.
 template <class Matrix, class Values = typename Matrix::Values>
 inline void scaled(const Matrix& matrix, const Values* shares, int count, int steps,
                    Values* means) {
@@ -209,8 +232,9 @@ inline void scaled(const Matrix& matrix, const Values* shares, int count, int st
   for_each([](R& g, R mean, R share) { g = share / std::sqrt(mean); });
   spread();
   for (int step = 0; step < steps; ++step) {
+    const R power = scaling_power<R>(step, steps);
     for_each([&](R& g, R mean, R share) {
-      g *= std::max(1 + kScalingPowers<R>[step % 2] * (share / (g * mean) - 1), R(0.2));
+      g *= std::max(1 + power * (share / (g * mean) - 1), R(0.2));
     });
     spread();
   }

@@ -25,7 +25,7 @@ static_assert(sizeof(PixelSums) == 80 && std::is_trivially_copyable_v<PixelSums>
 
 constexpr std::string_view kFilmMagic = "\x89mmf\r\n\x1a\n";
 /// Goes up too where a sample of a number becomes another: films of both would not add up.
-constexpr std::uint32_t kFilmVersion = 44;
+constexpr std::uint32_t kFilmVersion = 45;
 constexpr std::size_t kHashAt = 12, kBodyAt = 20;
 constexpr int kLargestSide = 32768;
 

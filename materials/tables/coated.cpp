@@ -108,7 +108,6 @@ void write_facets(const TableFiles& to, const std::string& name, const std::vect
   for (std::size_t k = 0; k < under.size(); ++k) round.under[k] = under[k].data();
   const StretchedTables stretched = stretched_coats<Distribution>(round);
   write_numbers(to, name + "StretchedCoatTable", stretched.coat);
-  write_numbers(to, name + "StretchedSpreadTable", stretched.spread);
   for (std::size_t k = 0; k < stretched.under.size(); ++k)
     write_numbers(to, name + "StretchedUnderTable" + std::to_string(k), stretched.under[k]);
 }
@@ -130,6 +129,11 @@ int main(int argc, char** argv) {
                [](double x) { return Broadness<double>::facets(glossy_as_facets(gloss_at(x))); });
     write_under(to, "kGlossy", glossy);
     write_under(to, "kMatte", matte);
+    // Steep GGX facets are so many that it takes more of them.
+    write_numbers(to, "kGgxStretchedSpreadTable",
+                  stretched_spread<Ggx>(kGgxSpreadAlpha, 10946, 6765));
+    write_numbers(to, "kBeckmannStretchedSpreadTable",
+                  stretched_spread<Beckmann>(kBeckmannSpreadAlpha, 4181, 2584));
     write_spread(to, "kGgx", ggx);
     write_spread(to, "kBeckmann", beckmann);
     write_spread(to, "kGlossy", glossy);

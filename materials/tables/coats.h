@@ -83,7 +83,7 @@ struct Cubic {
 
 /// G^2 of materials/coated.h of a lobe that is to reflect each of some shares A, from g = A /
 /// sqrt(K A), which is nearly right, by powers of what is still wrong (Knight, Ruiz and Ucar 2014:
-/// the symmetric form of Sinkhorn's iteration), two in turn as in materials/spread.h.
+/// the symmetric form of Sinkhorn's iteration), four in turn as in materials/spread.h.
 template <class Lobe>
 std::vector<Values> scaled(const Lobe& lobe, const std::vector<Values>& shares) {
   std::vector<Values> all = shares, means;
@@ -101,7 +101,7 @@ std::vector<Values> scaled(const Lobe& lobe, const std::vector<Values>& shares) 
         double& g = all[n][o];
         const double share = shares[n][o], mean = means[n][o];
         worst = std::max(worst, std::abs(g * mean - share));
-        g *= std::pow(share / (g * mean), kScalingPowers<double>[step % 2]);
+        g *= std::pow(share / (g * mean), scaling_power<double>(step % 4, 4));
       }
     spread();
   }
@@ -141,10 +141,13 @@ struct CoatShares {
 struct StretchedTables {
   std::vector<float> coat;                ///< CoatedTables::coat_stretched
   std::vector<std::vector<float>> under;  ///< CoatedTables::under_stretched
-  std::vector<float> spread;              ///< CoatedTables::spread_stretched
 };
 /// From the tables of round ones.
 template <template <class> class Distribution>
 StretchedTables stretched_coats(const CoatedTables& round);
+
+/// CoatedTables::spread_stretched, of `widths` nodes, by a lattice of facets as in all_facets.
+template <template <class> class Distribution>
+std::vector<float> stretched_spread(int widths, int facets, int step);
 
 }  // namespace mms::materials::tables

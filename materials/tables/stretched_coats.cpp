@@ -167,40 +167,9 @@ struct Coated {
   }
 };
 
-/// CoatedTables::spread_stretched of one lobe.
-template <class Lobe>
-Values spread_columns(const Lobe& lobe, double wide, double narrow) {
-  using Matrix = StretchedMatrix<double>;
-  const CoatedTables none{};
-  std::vector<Vec3d> directions;
-  for (const double z : SpreadPoints<double, Matrix::kHeights>::get().cosine)
-    for (int t = 0; t < Matrix::kTurns; ++t) {
-      const auto along = [](double turn) {
-        return Vec3d{std::sin(turn * kPi<double> / 2), std::cos(turn * kPi<double> / 2), 0};
-      };
-      const auto turn = [&](double at) {
-        return axes::spread_turn(along(at).x, along(at).y, wide / narrow);
-      };
-      const Vec3d to = along(inverse(turn, (t + 0.5) / Matrix::kTurns));
-      const double s = std::sqrt((1 - z) * (1 + z));
-      directions.push_back({s * to.x, s * to.y, z});
-    }
-  std::vector<Values> polynomials(Matrix::kDirections, Values(kNodes));
-  for (int i = 0; i < kNodes; ++i) {
-    const auto weights =
-        Matrix::weights_at(CoatedLobe<double>::facets(none, wide, narrow, lobe.directions().at(i)));
-    for (int k = 0; k < Matrix::kDirections; ++k) polynomials[k][i] = weights[k];
-  }
-  Values columns;
-  for (const Values& mean : lobe.means(polynomials))
-    for (const Vec3d& w : directions) columns.push_back(lobe.directions().value(mean, w));
-  return columns;
-}
-
-/// Of stretched facets less of round ones, for each index and direction, at all shapes; and their
-/// matrices, of each ring.
+/// Of stretched facets less of round ones, for each index and direction, at all shapes.
 struct Differences {
-  std::vector<Values> coat, under[kUnder], spread;
+  std::vector<Values> coat, under[kUnder];
 
   explicit Differences(int shapes)
       : coat(axes::kStretchedCoatIndex * axes::kStretchedCoatDirection, Values(shapes)) {
@@ -212,7 +181,6 @@ template <template <class> class Distribution>
 Differences differences(const ShapeFit& shapes, double root, const CoatedTables& round) {
   using namespace axes;
   Differences all(shapes.count());
-  all.spread.push_back(spread_columns(Lobe<Distribution<double>>(root, root), root, root));
   for (int first = 0, end = 0; first < shapes.count(); first = end) {
     // All shapes of one ring are the same facets, along other directions.
     const double aspect = shapes.facets(first).wide, wide = root * aspect, narrow = root / aspect;
@@ -239,7 +207,6 @@ Differences differences(const ShapeFit& shapes, double root, const CoatedTables&
             lobe.directions().value(stretched, w) - like(width, coat_direction(w.z));
       });
     };
-    all.spread.push_back(spread_columns(lobe, wide, narrow));
     for (int n = 0; n < kStretchedCoatIndex; ++n) {
       const double eta = index_at(double(n) / (kStretchedCoatIndex - 1));
       const Coated coated(lobe, eta, Broadness<double>::facets(root));
@@ -269,11 +236,6 @@ StretchedTables stretched_coats(const CoatedTables& round) {
   const Grid nothing({kStretchedCoatAlpha, kStretchedCoatIndex, kStretchedCoatDirection, terms},
                      [](const double*) { return 0.0; });
   std::vector<Grid> fitted(1 + kUnder, nothing);
-  static_assert(kSpreadRings == kStretchedCoatShapes.outwards() + 2,
-                "round facets, and ShapeFit's rings");
-  constexpr int directions = StretchedMatrix<double>::kDirections,
-                numbers = directions * directions;
-  Grid spread({kStretchedCoatAlpha, kSpreadRings, numbers});
   parallel(steps, [&](int k) {
     const double place = (k + 1.0) / steps;
     const auto all = differences<Distribution>(shapes, place * place * place, round);
@@ -284,19 +246,13 @@ StretchedTables stretched_coats(const CoatedTables& round) {
     };
     fit(all.coat, fitted[0]);
     for (int b = 0; b < kUnder; ++b) fit(all.under[b], fitted[1 + b]);
-    // Mirrors as the narrowest of all.
-    for (int at = k == 0 ? 0 : k + 1; at <= k + 1; ++at)
-      for (int ring = 0; ring < kSpreadRings; ++ring)
-        std::copy(all.spread[ring].begin(), all.spread[ring].end(),
-                  &spread.values[(at * kSpreadRings + ring) * numbers]);
   });
-  fitted.push_back(spread);
   std::vector<std::vector<float>> splines;
   for (const Grid& grid : fitted) {
     const Values coefficients = grid.spline(1);
     splines.emplace_back(coefficients.begin(), coefficients.end());
   }
-  return {splines[0], {splines.begin() + 1, splines.end() - 1}, splines.back()};
+  return {splines[0], {splines.begin() + 1, splines.end()}};
 }
 
 template StretchedTables stretched_coats<Ggx>(const CoatedTables&);
