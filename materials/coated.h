@@ -39,11 +39,15 @@ namespace axes {
 /// Widths of `rough_matte`, and directions of a lobe's matrix.
 inline constexpr int kCoatedMatte = 5, kSpread = 40;
 /// Heights of the directions of one of stretched facets; azimuths at each, and fewer at the last,
-/// within 30 degrees of the normal, towards which functions hang on them less; quotients of widths.
-inline constexpr int kStretchedSpread = 27, kSpreadTurns = 12, kSpreadRings = 7;
+/// within 30 degrees of the normal, towards which all azimuths are alike.
+inline constexpr int kStretchedSpread = 27, kSpreadTurns = 12;
 inline constexpr int kFewSpreadTurns = 6, kSpreadOfFew = 6;
-/// Its roots of both widths: what Beckmann facets do changes faster with these.
-inline constexpr int kGgxSpreadAlpha = 20, kBeckmannSpreadAlpha = 28;
+/// Nodes of its widths, as their root and their quotient.
+struct SpreadNodes {
+  int alpha, ring;
+};
+/// What Beckmann facets do changes faster with both.
+inline constexpr SpreadNodes kGgxSpread{20, 7}, kBeckmannSpread{28, 9};
 /// s of the coats that lobes lie below in the tables.
 inline constexpr double kHeld[] = {0, 0.2, 0.5, 0.8, 1}, kStretchedHeld[] = {0, 0.3, 0.7, 1};
 /// Of stretched facets; the axis of the width is that of an interface.
@@ -70,8 +74,7 @@ inline R spread_cosine(R place) {
   const R x = (9 - std::sqrt(81 - 80 * place)) / 8, root = (std::sqrt(9 + 16 * x) - 3) / 2;
   return std::sin(std::numbers::pi_v<R> / 2 * std::min(root * root, R(1)));
 }
-/// Of the widths of stretched facets: what is uniform here are the rings of their shapes that
-/// tables are made from.
+/// Of the widths of stretched facets: what is uniform here are rings of their shapes.
 template <class R>
 inline R ring(R wide, R narrow) {
   const R radius = Shape<R>::radius(wide, narrow);
@@ -101,7 +104,7 @@ struct CoatedTables {
   /// of axes::kStretchedSpread heights, azimuths at Chebyshev's points over axes::spread_turn:
   /// polynomials of both.
   const float* spread_stretched;
-  int spread_alpha;  ///< nodes of its first axis
+  axes::SpreadNodes spread_nodes;  ///< of its first two axes
 };
 extern const CoatedTables kGgxCoated, kBeckmannCoated, kGlossyCoated, kMatteCoated;
 

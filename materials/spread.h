@@ -60,7 +60,7 @@ template <class R>
 struct SpreadMatrix {
   static constexpr int kHeights = axes::kSpread, kDirections = kHeights;
   static constexpr int turns(int) { return 1; }
-  static constexpr int kCoatSteps = 12;  ///< of `scaled`, where E is to be reflected
+  static constexpr int kCoatSteps = 8;  ///< of `scaled`, where E is to be reflected
   using Values = std::array<R, kDirections>;
   std::array<Values, kDirections> rows{};  ///< as in CoatedTables::spread
 
@@ -76,8 +76,8 @@ struct SpreadMatrix {
 
   /// What G counts as at least, over g.
   R least_mean() const { return 0; }
-  /// How much of T is to be taken from G^2, so that the rest is a polynomial.
-  R kept() const { return 1; }
+  /// How much of T shows in G^2, whose rest is nearly a polynomial.
+  R shown() const { return 1; }
 
   /// What values at the directions are multiplied with for that along the direction of `lobe`.
   static Values weights_at(const CoatedLobe<R>& lobe) {
@@ -115,8 +115,9 @@ class StretchedMatrix {
   /// Makes it the matrix of a lobe, which takes long.
   void read(const CoatedLobe<R>& lobe) {
     tables_ = lobe.tables, mean_ = lobe.along.mean, ring_ = ring(lobe);
-    const auto root = Stencil<R>::at(axes::interface_alpha(mean_), tables_->spread_alpha);
-    constexpr int n1 = kDirections * kDirections, n0 = n1 * coefficients(axes::kSpreadRings);
+    const axes::SpreadNodes& nodes = tables_->spread_nodes;
+    const auto root = Stencil<R>::at(axes::interface_alpha(mean_), nodes.alpha);
+    const int n1 = kDirections * kDirections, n0 = n1 * coefficients(nodes.ring);
     for (int k = 0; k < kDirections; ++k) {
       Values row{};
       add_terms(row.data(), kDirections, tables_->spread_stretched + k * kDirections, R(1), root,
@@ -128,8 +129,8 @@ class StretchedMatrix {
   /// Less than G is along the surface, where broad lobes lead most away; of narrow ones, of which
   /// few directions know, polynomials may swing below 0.
   R least_mean() const { return std::min(R(0.002) / mean_, R(0.1)); }
-  /// Broad lobes blur the fringes of a film, which T has, and G^2 not.
-  R kept() const {
+  /// The broader lobes are, the more they blur the fringes of a film, which T has.
+  R shown() const {
     constexpr R blurs = R(0.03);
     return 1 / (1 + mean_ * mean_ / (blurs * blurs));
   }
@@ -165,7 +166,8 @@ class StretchedMatrix {
 
  private:
   static Stencil<R> ring(const CoatedLobe<R>& lobe) {
-    return Stencil<R>::at(axes::ring(lobe.along.wide, lobe.along.narrow), axes::kSpreadRings);
+    return Stencil<R>::at(axes::ring(lobe.along.wide, lobe.along.narrow),
+                          lobe.tables->spread_nodes.ring);
   }
 
   const CoatedTables* tables_ = nullptr;

@@ -135,9 +135,9 @@ class MeanThrough {
 /// G^2 of a lobe at the directions of its matrix, for each solution.
 template <class R, class Matrix>
 struct SolvedDirections {
-  R above[kWavelengths][Matrix::kDirections];  ///< G^2 - T, of it as much as Matrix::kept
+  R above[kWavelengths][Matrix::kDirections];  ///< G^2 less as much of T as Matrix::shown
   /// Of a part of a coat: ln of G^2 / E over that without E, as E may be next to nothing along most
-  /// directions; under a film, where it is so along few, G^2 - T E, of it as much.
+  /// directions; under a film, where it is so along few, G^2 less as much of T E.
   R rest[kWavelengths][Matrix::kDirections];
 };
 
@@ -207,10 +207,10 @@ class UnderCoats {
   /// G^2 of wavelength j along the direction, for T = `through` and, of a part of a coat, E =
   /// `reflected`.
   R squared(int j, const Along& along, R through, R reflected = 1) const {
-    const R below = std::max(kept_share_ * through + along.above[at_[j]], through / 2);
+    const R below = std::max(shown_ * through + along.above[at_[j]], through / 2);
     if (!reflects_) return below;
     const R rest = along.rest[at_[j]], all = through * reflected;
-    if (filmed_[at_[j]]) return std::max(kept_share_ * all + rest, all * least_[at_[j]]);
+    if (filmed_[at_[j]]) return std::max(shown_ * all + rest, all * least_[at_[j]]);
     return below * reflected * std::exp(limited(rest, R(-20), R(40)));
   }
 
@@ -229,7 +229,7 @@ class UnderCoats {
         if (reflects_) std::fill_n(&reflected[n][first], turns, along.reflected(wavelength[n]));
       }
     });
-    kept_share_ = matrix.kept();
+    shown_ = matrix.shown();
     Values below[kWavelengths];
     if (coats.count > 0)
       scaled(matrix, through, count_, 4, below);
@@ -237,7 +237,7 @@ class UnderCoats {
       std::copy_n(through, count_, below);
     for (int n = 0; n < count_; ++n)
       for (int k = 0; k < kDirections; ++k)
-        solved.above[n][k] = below[n][k] * below[n][k] - kept_share_ * through[n][k];
+        solved.above[n][k] = below[n][k] * below[n][k] - shown_ * through[n][k];
     if (!reflects_) return;
     Values shares[kWavelengths], parts[kWavelengths];
     for (int n = 0; n < count_; ++n)
@@ -251,7 +251,7 @@ class UnderCoats {
         if (all[k] > 0) least_[n] = std::min(least_[n], part[k] * part[k] / all[k] / 2);
       for (int k = 0; k < kDirections; ++k)
         solved.rest[n][k] = filmed_[n]
-                                ? part[k] * part[k] - kept_share_ * all[k]
+                                ? part[k] * part[k] - shown_ * all[k]
                                 : 2 * std::log(part[k] / below[n][k]) - std::log(reflected[n][k]);
     }
   }
@@ -273,7 +273,7 @@ class UnderCoats {
   bool reflects_;                       ///< the lobe is a part of a coat
   std::bitset<kWavelengths> repeated_;  ///< wavelengths that are as the ones before
   int count_;                           ///< of solutions
-  R kept_share_;                        ///< Matrix::kept
+  R shown_;                             ///< Matrix::shown
   SolvedDirections<R, SpreadMatrix<R>> round_;
   SolvedDirections<R, StretchedMatrix<R>>* stretched_ = nullptr;  ///< null: of a round lobe
   std::bitset<kWavelengths> filmed_;  ///< solutions of parts of a filmed coat
