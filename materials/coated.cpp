@@ -13,7 +13,7 @@ const CoatedTables kGgxCoated{
     kGgxStretchedCoatTable,
     kGgxSpreadTable,
     kGgxStretchedSpreadTable,
-    axes::kGgxSpread};
+    axes::kGgxSpreadAlpha};
 const CoatedTables kBeckmannCoated{
     {kBeckmannUnderTable0, kBeckmannUnderTable1, kBeckmannUnderTable2, kBeckmannUnderTable3,
      kBeckmannUnderTable4},
@@ -23,7 +23,7 @@ const CoatedTables kBeckmannCoated{
     kBeckmannStretchedCoatTable,
     kBeckmannSpreadTable,
     kBeckmannStretchedSpreadTable,
-    axes::kBeckmannSpread};
+    axes::kBeckmannSpreadAlpha};
 const CoatedTables kGlossyCoated{{kGlossyUnderTable0, kGlossyUnderTable1, kGlossyUnderTable2,
                                   kGlossyUnderTable3, kGlossyUnderTable4},
                                  kGlossyCoatTable,
@@ -31,7 +31,7 @@ const CoatedTables kGlossyCoated{{kGlossyUnderTable0, kGlossyUnderTable1, kGloss
                                  nullptr,
                                  kGlossySpreadTable,
                                  nullptr,
-                                 {}};
+                                 0};
 const CoatedTables kMatteCoated{
     {kMatteUnderTable0, kMatteUnderTable1, kMatteUnderTable2, kMatteUnderTable3, kMatteUnderTable4},
     nullptr,
@@ -39,6 +39,6 @@ const CoatedTables kMatteCoated{
     nullptr,
     kMatteSpreadTable,
     nullptr,
-    {}};
+    0};
 
 }  // namespace mms::materials

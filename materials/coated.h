@@ -39,15 +39,11 @@ namespace axes {
 /// Widths of `rough_matte`, and directions of a lobe's matrix.
 inline constexpr int kCoatedMatte = 5, kSpread = 40;
 /// Heights of the directions of one of stretched facets; azimuths at each, and fewer at the last,
-/// within 30 degrees of the normal, towards which all azimuths are alike.
-inline constexpr int kStretchedSpread = 27, kSpreadTurns = 12;
+/// within 30 degrees of the normal, towards which all azimuths are alike; quotients of widths.
+inline constexpr int kStretchedSpread = 27, kSpreadTurns = 12, kSpreadRings = 9;
 inline constexpr int kFewSpreadTurns = 6, kSpreadOfFew = 6;
-/// Nodes of its widths, as their root and their quotient.
-struct SpreadNodes {
-  int alpha, ring;
-};
-/// What Beckmann facets do changes faster with both.
-inline constexpr SpreadNodes kGgxSpread{20, 7}, kBeckmannSpread{28, 9};
+/// Roots of widths, with which what Beckmann facets do changes faster.
+inline constexpr int kGgxSpreadAlpha = 20, kBeckmannSpreadAlpha = 28;
 /// s of the coats that lobes lie below in the tables.
 inline constexpr double kHeld[] = {0, 0.2, 0.5, 0.8, 1}, kStretchedHeld[] = {0, 0.3, 0.7, 1};
 /// Of stretched facets; the axis of the width is that of an interface.
@@ -104,7 +100,7 @@ struct CoatedTables {
   /// of axes::kStretchedSpread heights, azimuths at Chebyshev's points over axes::spread_turn:
   /// polynomials of both.
   const float* spread_stretched;
-  axes::SpreadNodes spread_nodes;  ///< of its first two axes
+  int spread_alpha;  ///< nodes of its first axis
 };
 extern const CoatedTables kGgxCoated, kBeckmannCoated, kGlossyCoated, kMatteCoated;
 

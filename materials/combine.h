@@ -46,16 +46,15 @@
 ///
 /// Where a coat lies right under another, as plastic under varnish, and so on, T is the product of
 /// all coats above, and a lobe of a coat below others gets E of its coat times their T: g and h are
-/// then solved for (materials/under_coats.h), however many there are, within 1e-4; where facets of
-/// anisotropy 0.9 are part of two, 3e-4. An index below 1, as of water under varnish, counts as its
-/// inverse (materials/coat.h), and a coat whose index is 1 at every wavelength is not there.
+/// then solved for (materials/under_coats.h), however many there are, within 1e-4. An index below
+/// 1, as of water under varnish, counts as its inverse (materials/coat.h), and a coat whose index
+/// is 1 at every wavelength is not there.
 ///
 /// Under a film, of `film_mix(base, coat, ior, film_ior, thickness, wavelength)`, E is what film
 /// and interface reflect (materials/coat.h), and g and h are solved for too. Mattes, round facets
-/// and `glossy` in it and under it keep their energy within 1e-4 however thick it is. Stretched
-/// facets of roughness from 0.2, up to anisotropy 0.9, do within 2e-4 under films of up to 1.2
-/// waves and 4e-4 of up to 2, Beckmann's 5e-4 and 8e-4; in them, along the surface, within 4e-4 and
-/// 1.3e-3, Beckmann's 8e-4 and 1.5e-3; at anisotropy 1 up to five times as far.
+/// and `glossy` in it and under it keep their energy within 1e-4 however thick it is. So do
+/// stretched facets of roughness from 0.2 in and under films of up to 2 waves; of roughness from
+/// 0.05 they do within 1e-3.
 ///
 /// Interfaces right below the coat, or below several, get what passes it once if light changes
 /// sides, twice if it stays outside, and never if it stays inside, along the directions outside;

@@ -115,9 +115,8 @@ class StretchedMatrix {
   /// Makes it the matrix of a lobe, which takes long.
   void read(const CoatedLobe<R>& lobe) {
     tables_ = lobe.tables, mean_ = lobe.along.mean, ring_ = ring(lobe);
-    const axes::SpreadNodes& nodes = tables_->spread_nodes;
-    const auto root = Stencil<R>::at(axes::interface_alpha(mean_), nodes.alpha);
-    const int n1 = kDirections * kDirections, n0 = n1 * coefficients(nodes.ring);
+    const auto root = Stencil<R>::at(axes::interface_alpha(mean_), tables_->spread_alpha);
+    constexpr int n1 = kDirections * kDirections, n0 = n1 * coefficients(axes::kSpreadRings);
     for (int k = 0; k < kDirections; ++k) {
       Values row{};
       add_terms(row.data(), kDirections, tables_->spread_stretched + k * kDirections, R(1), root,
@@ -166,8 +165,7 @@ class StretchedMatrix {
 
  private:
   static Stencil<R> ring(const CoatedLobe<R>& lobe) {
-    return Stencil<R>::at(axes::ring(lobe.along.wide, lobe.along.narrow),
-                          lobe.tables->spread_nodes.ring);
+    return Stencil<R>::at(axes::ring(lobe.along.wide, lobe.along.narrow), axes::kSpreadRings);
   }
 
   const CoatedTables* tables_ = nullptr;

@@ -130,9 +130,10 @@ int main(int argc, char** argv) {
     write_under(to, "kGlossy", glossy);
     write_under(to, "kMatte", matte);
     // Steep GGX facets are so many that it takes more of them.
-    write_numbers(to, "kGgxStretchedSpreadTable", stretched_spread<Ggx>(kGgxSpread, 10946, 6765));
+    write_numbers(to, "kGgxStretchedSpreadTable",
+                  stretched_spread<Ggx>(kGgxSpreadAlpha, 10946, 6765));
     write_numbers(to, "kBeckmannStretchedSpreadTable",
-                  stretched_spread<Beckmann>(kBeckmannSpread, 4181, 2584));
+                  stretched_spread<Beckmann>(kBeckmannSpreadAlpha, 4181, 2584));
     write_spread(to, "kGgx", ggx);
     write_spread(to, "kBeckmann", beckmann);
     write_spread(to, "kGlossy", glossy);

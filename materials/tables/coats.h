@@ -146,8 +146,8 @@ struct StretchedTables {
 template <template <class> class Distribution>
 StretchedTables stretched_coats(const CoatedTables& round);
 
-/// CoatedTables::spread_stretched, by a lattice of facets as in all_facets.
+/// CoatedTables::spread_stretched, of `roots` of widths, by a lattice of facets as in all_facets.
 template <template <class> class Distribution>
-std::vector<float> stretched_spread(const axes::SpreadNodes& nodes, int facets, int step);
+std::vector<float> stretched_spread(int roots, int facets, int step);
 
 }  // namespace mms::materials::tables

@@ -146,26 +146,26 @@ Values columns(const Facets& facets, const std::vector<Facet>& all) {
 }  // namespace
 
 template <template <class> class Distribution>
-std::vector<float> stretched_spread(const axes::SpreadNodes& nodes, int facets, int step) {
-  constexpr int numbers = kDirections * kDirections;
-  Grid spread({nodes.alpha, nodes.ring, numbers});
-  parallel((nodes.alpha - 1) * nodes.ring, [&](int k) {
-    const int width = k / nodes.ring + 1, ring = k % nodes.ring;
-    const double place = double(width) / (nodes.alpha - 1), root = place * place * place;
+std::vector<float> stretched_spread(int roots, int facets, int step) {
+  constexpr int rings = axes::kSpreadRings, numbers = kDirections * kDirections;
+  Grid spread({roots, rings, numbers});
+  parallel((roots - 1) * rings, [&](int k) {
+    const int width = k / rings + 1, ring = k % rings;
+    const double place = double(width) / (roots - 1), root = place * place * place;
     // The inverse of axes::ring.
-    const double radius = std::sin(kPi<double> / 2 * ring / (nodes.ring - 1)) * 9 / 11;
+    const double radius = std::sin(kPi<double> / 2 * ring / (rings - 1)) * 9 / 11;
     const double stretch = std::sqrt((1 + radius) / (1 - radius));
     const Distribution<double> lobe{{root * stretch, root / stretch}};
     const Values of = columns(lobe, all_facets(lobe, facets, step));
     // Mirrors as the narrowest of all.
     for (int at = width == 1 ? 0 : width; at <= width; ++at)
-      std::copy(of.begin(), of.end(), &spread.values[(at * nodes.ring + ring) * numbers]);
+      std::copy(of.begin(), of.end(), &spread.values[(at * rings + ring) * numbers]);
   });
   const Values coefficients = spread.spline(1);
   return {coefficients.begin(), coefficients.end()};
 }
 
-template std::vector<float> stretched_spread<Ggx>(const axes::SpreadNodes&, int, int);
-template std::vector<float> stretched_spread<Beckmann>(const axes::SpreadNodes&, int, int);
+template std::vector<float> stretched_spread<Ggx>(int, int, int);
+template std::vector<float> stretched_spread<Beckmann>(int, int, int);
 
 }  // namespace mms::materials::tables
