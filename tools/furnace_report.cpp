@@ -197,9 +197,7 @@ from 1.02 to 4, films `film_mix`; round facets are of anisotropy 0.
 | `mirror`, `glossy` and round facets of roughness from 0.05, as coats and, with `matte` and `rough_matte`, below coats and under films of any thickness | 1e-4 |
 | glass below coats and films; at anisotropy 1 one setting in 500 | 1e-3; 5e-3 |
 | other facets, of roughness from 0.2, as coats and below coats, to anisotropy 0.9; at 1 | 2e-4; 3e-4 |
-| the same under films of up to 600 nm; up to 1 um | 5e-4; 8e-4 |
-| the same as a coat under such a film, where it is seen along the surface | 8e-4; 1.5e-3 |
-| the last two at anisotropy 1 | up to five times as much |
+| other facets, of roughness from 0.2, under films of up to 1 um, and as coats under these, of any anisotropy | 1e-4 |
 
 Other models may lose light as coats and below them, most towards grazing angles. `ctest --preset release -R accuracy` holds materials to such bounds
 at its own settings; what is said of anisotropy 1, and of other facets with coats and films, are the largest errors that wider random searches found, which are no part of
