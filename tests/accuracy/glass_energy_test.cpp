@@ -22,7 +22,8 @@ namespace {
 /// Whether a ShapeBasis has room for polynomials of that order.
 constexpr bool fits(materials::ShapeOrder order) {
   using Basis = materials::ShapeBasis<double>;
-  return order.around <= Basis::kMostAround && Basis::terms(order) <= Basis::kMost;
+  return order.around <= Basis::kMostAround && order.outwards() <= Basis::kMostOutwards &&
+         Basis::terms(order) <= Basis::kMost;
 }
 constexpr bool fit(const auto& grids) { return fits(grids[0].shapes) && fits(grids[1].shapes); }
 static_assert(fit(materials::kGgxBent) && fit(materials::kBeckmannBent));
